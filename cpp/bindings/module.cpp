@@ -1,0 +1,28 @@
+#include "bindings/arrays.h"
+#include "raybound/frame/work_queue.h"
+
+namespace raybound::python {
+
+namespace {
+
+py::dict build_info() {
+    return py::dict("version"_a = RAYBOUND_VERSION, "compiler"_a = __VERSION__, "flags"_a = RAYBOUND_FLAGS,
+                    "instruction_level"_a = RAYBOUND_ARCH_NAME, "sabotage"_a = RAYBOUND_SABOTAGE_NAME,
+                    "sanitizer"_a = RAYBOUND_SANITIZE_NAME, "hardware_threads"_a = hardware_threads());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+    m.doc() = "The raw engine of raybound; the public interface is the package raybound.";
+    register_numbers(m);
+    register_transforms(m);
+    register_shapes(m);
+    register_materials(m);
+    register_scene(m);
+    register_camera(m);
+    register_render(m);
+    m.def("build_info", &build_info, "How this module was built.");
+}
+
+}  // namespace raybound::python

@@ -1,0 +1,136 @@
+#include "raybound/frame/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+namespace raybound {
+
+namespace {
+
+constexpr int tile_size = 32;  // TUNED: 16 to 64 measure alike on two cores
+
+class Stopwatch {
+  public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+template <class T>
+void trace_pixel(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, int x, int y) {
+    const std::size_t at = buffers.index(x, y);
+    if (buffers.error_bound[at] == 0) return;
+    const EyeSample<T> sample = tracer.sample(Vec3<T>(camera.eye()), Vec3<T>(camera.direction<float>(x, y)));
+    buffers.image[at] = Vec3f(sample.radiance);
+    buffers.path[at] = std::uint8_t(sample.object < 0 ? Path::background : Path::traced);
+    buffers.object_id[at] = sample.object;
+    buffers.depth[at] = float(sample.t);
+    buffers.error_bound[at] = 0;
+}
+
+void copy_pixel(FrameBuffers& buffers, std::size_t from, std::size_t to) {
+    if (buffers.error_bound[to] == 0) return;
+    buffers.image[to] = buffers.image[from];
+    buffers.path[to] = std::uint8_t(Path::extrapolated);
+    buffers.object_id[to] = buffers.object_id[from];
+    buffers.depth[to] = buffers.depth[from];
+}
+
+struct Tile {
+    int x0, y0, x1, y1;
+};
+
+// Sets of tiles over the picture; their sides are multiples of the stride, so that blocks do not straddle tiles.
+class Tiling {
+  public:
+    Tiling(const FrameBuffers& buffers, int stride)
+        : side_((tile_size + stride - 1) / stride * stride), width_(buffers.width), height_(buffers.height), columns_((width_ + side_ - 1) / side_) {}
+
+    int count() const { return columns_ * ((height_ + side_ - 1) / side_); }
+    Tile tile(int item) const {
+        const int x = item % columns_ * side_, y = item / columns_ * side_;
+        return {x, y, std::min(x + side_, width_), std::min(y + side_, height_)};
+    }
+
+  private:
+    int side_, width_, height_, columns_;
+};
+
+template <class T>
+void render_tile(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, const Tile& tile, int stride, const std::atomic<bool>& cancelled) {
+    for (int y = tile.y0; y < tile.y1; y += stride)
+        for (int x = tile.x0; x < tile.x1; x += stride) {
+            const std::size_t at = buffers.index(x, y);
+            const float before = buffers.error_bound[at];
+            trace_pixel(tracer, camera, buffers, x, y);
+            if (cancelled) {  // the pixel may have been cut short
+                buffers.error_bound[at] = before;
+                return;
+            }
+            for (int j = y; j < std::min(y + stride, tile.y1); ++j)
+                for (int i = x; i < std::min(x + stride, tile.x1); ++i) copy_pixel(buffers, at, buffers.index(i, j));
+        }
+}
+
+template <class T>
+std::vector<Tracer<T>> make_tracers(const Snapshot& scene, const RenderSettings& settings, const std::atomic<bool>& cancelled) {
+    const TraceSettings trace{settings.max_depth, settings.acceleration, &cancelled};
+    return std::vector<Tracer<T>>(std::size_t(settings.threads > 0 ? settings.threads : hardware_threads()), Tracer<T>(scene, trace));
+}
+
+template <class T>
+RayCounts total(const std::vector<Tracer<T>>& tracers) {
+    RayCounts sum;
+    for (const auto& tracer : tracers) sum += tracer.counts();
+    return sum;
+}
+
+template <class T>
+RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, const RenderSettings& settings, const Watch& watch) {
+    std::atomic<bool> cancelled = false;
+    auto tracers = make_tracers<T>(scene, settings, cancelled);
+    const Tiling tiling(buffers, settings.stride);
+    const Stopwatch watch_time;
+    RenderStatistics statistics;
+    statistics.threads = run_work(
+        tiling.count(), settings.threads, cancelled,
+        [&](int item, int worker) { render_tile(tracers[std::size_t(worker)], camera, buffers, tiling.tile(item), settings.stride, cancelled); }, watch);
+    statistics.seconds = watch_time.seconds();
+    statistics.rays = total(tracers);
+    return statistics;
+}
+
+}  // namespace
+
+RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, const RenderSettings& settings, const Watch& watch) {
+    if (settings.precision == Precision::float64) return render_with<double>(scene, camera, buffers, settings, watch);
+    return render_with<float>(scene, camera, buffers, settings, watch);
+}
+
+TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, std::vector<Vec3f> directions,
+                      const RenderSettings& settings, const Watch& watch) {
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        if (!unit_direction(directions[i])) throw std::invalid_argument("Renderer.trace: directions must not be zero, direction " + std::to_string(i) + " is");
+    constexpr int chunk = 256;
+    const int count = int(origins.size());
+    TracedRays result{std::vector<Vec3f>(origins.size()), std::vector<std::int32_t>(origins.size()), std::vector<float>(origins.size()), {}};
+    std::atomic<bool> cancelled = false;
+    auto tracers = make_tracers<float>(scene, settings, cancelled);
+    const auto work = [&](int item, int worker) {
+        for (int i = item * chunk; i < std::min(count, (item + 1) * chunk) && !cancelled; ++i) {
+            const auto at = std::size_t(i);
+            const auto sample = tracers[std::size_t(worker)].sample(origins[at], directions[at]);
+            result.radiance[at] = sample.radiance;
+            result.object_id[at] = sample.object;
+            result.t[at] = sample.t;
+        }
+    };
+    result.statistics.threads = run_work((count + chunk - 1) / chunk, settings.threads, cancelled, work, watch);
+    result.statistics.rays = total(tracers);
+    return result;
+}
+
+}  // namespace raybound

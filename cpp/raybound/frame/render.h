@@ -1,0 +1,42 @@
+// Rendering with the base tracer, by tiles, on several threads.
+#pragma once
+
+#include "raybound/frame/buffers.h"
+#include "raybound/frame/camera.h"
+#include "raybound/frame/work_queue.h"
+#include "raybound/trace/tracer.h"
+
+namespace raybound {
+
+enum class Precision { float32, float64 };
+
+struct RenderSettings {
+    int max_depth = 5;
+    int threads = 0;
+    int stride = 1;
+    Precision precision = Precision::float32;
+    Acceleration acceleration = Acceleration::bvh;
+};
+
+struct RenderStatistics {
+    RayCounts rays;
+    double seconds = 0;
+    int threads = 0;
+};
+
+// Traces the pixels whose coordinates are multiples of the stride and whose bound is not yet 0. With a stride above 1
+// the others of each block take its corner's colour, marked as extrapolated. With double precision the same float rays
+// are traced by the double kernels, for comparison.
+RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, const RenderSettings& settings, const Watch& watch);
+
+// Any rays, by the same tracer. Directions are made unit vectors in float first (throws std::invalid_argument for zero).
+struct TracedRays {
+    std::vector<Vec3f> radiance;
+    std::vector<std::int32_t> object_id;
+    std::vector<float> t;
+    RenderStatistics statistics;
+};
+TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, std::vector<Vec3f> directions,
+                      const RenderSettings& settings, const Watch& watch);
+
+}  // namespace raybound

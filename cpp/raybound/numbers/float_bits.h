@@ -1,0 +1,42 @@
+// Neighbouring floating-point numbers and the error factor gamma (seeds/000, 3.9.1).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "raybound/numbers/number.h"
+
+namespace raybound {
+
+template <class T>
+using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+
+// The least number greater than x; +infinity and NaN stay as they are; both zeros go to the least subnormal.
+template <std::floating_point T>
+constexpr T next_float_up(T x) {
+    if (!(x < std::numeric_limits<T>::infinity())) return x;
+    if (x == 0) return std::numeric_limits<T>::denorm_min();
+    const auto bits = std::bit_cast<Bits<T>>(x);
+    return std::bit_cast<T>(x > 0 ? bits + 1 : bits - 1);
+}
+
+template <std::floating_point T>
+constexpr T next_float_down(T x) {
+    return -next_float_up(-x);
+}
+
+// gamma_n = n u / (1 - n u): n roundings in a row multiply a result by a factor within 1 +- gamma_n
+// (seeds/000, eq. 3.6; Higham 2002). Evaluated in double and rounded up, so that it is a bound itself.
+template <std::floating_point T>
+constexpr T gamma(int n) {
+#ifdef RAYBOUND_SABOTAGE_ROUNDING
+    return T(n) * 0;  // the sabotage build: every rounding bound is gone, and the tests must notice
+#else
+    const double nu = n * double(NumberTraits<T>::unit_roundoff);
+    return next_float_up(T(nu / (1 - nu)));
+#endif
+}
+
+}  // namespace raybound

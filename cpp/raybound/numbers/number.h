@@ -1,0 +1,81 @@
+// The concept Number: what a type must offer for the kernels of light and geometry to be instantiated with it.
+//
+// Kernels are written once, as templates over T. They do not branch on values: they `select`, and leave early only
+// through `none(mask)`, which every number type can answer ("no lane", "certainly not"). So a pack of floats, an
+// interval or a Taylor model can follow where today `float` draws and `double` checks.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+namespace raybound {
+
+// Mask: the truth value of comparisons. Wide: the type in which cancellation-critical values are evaluated again when
+// `T` cannot tell their sign (double for float; double has nothing wider and keeps to its own bands).
+template <class T>
+struct NumberTraits;
+
+template <>
+struct NumberTraits<float> {
+    using Mask = bool;
+    using Wide = double;
+    static constexpr float unit_roundoff = 0x1p-24f;
+};
+
+template <>
+struct NumberTraits<double> {
+    using Mask = bool;
+    using Wide = double;
+    static constexpr double unit_roundoff = 0x1p-53;
+};
+
+template <class T>
+using Mask = typename NumberTraits<T>::Mask;
+template <class T>
+using Wide = typename NumberTraits<T>::Wide;
+
+inline bool none(bool mask) { return !mask; }
+inline bool any(bool mask) { return mask; }
+
+template <std::floating_point T>
+inline T select(bool mask, T yes, T no) {
+    return mask ? yes : no;
+}
+inline int select(bool mask, int yes, int no) { return mask ? yes : no; }
+inline bool select(bool mask, bool yes, bool no) { return mask ? yes : no; }
+
+// min and max that keep their first argument when the second is NaN: a slab that says nothing (0 times infinity)
+// constrains nothing.
+template <std::floating_point T>
+inline T minimum(T a, T b) {
+    return b < a ? b : a;
+}
+template <std::floating_point T>
+inline T maximum(T a, T b) {
+    return b > a ? b : a;
+}
+
+template <std::floating_point T>
+inline T square(T x) {
+    return x * x;
+}
+using std::abs;
+using std::copysign;
+using std::sqrt;
+
+template <class T>
+inline constexpr T infinity = std::numeric_limits<T>::infinity();
+
+template <class T>
+concept Number = requires(T a, Mask<T> m) {
+    { a + a } -> std::convertible_to<T>;
+    { a - a } -> std::convertible_to<T>;
+    { a* a } -> std::convertible_to<T>;
+    { a / a } -> std::convertible_to<T>;
+    { a < a } -> std::convertible_to<Mask<T>>;
+    { sqrt(a) } -> std::convertible_to<T>;
+    { select(m, a, a) } -> std::convertible_to<T>;
+};
+
+}  // namespace raybound

@@ -1,0 +1,157 @@
+#include "raybound/scene/document.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace raybound {
+
+namespace {
+
+// An object is compiled once when it enters, so that a shape that cannot be placed is refused then, not when a frame
+// is rendered.
+ObjectRecord checked_object(std::int32_t id, ShapePointer shape, MaterialPointer material, const Affine& transform) {
+    if (!shape || !material) throw std::invalid_argument("Scene: shape and material must be given");
+    const Affine placed = checked_transform("Scene: transform", transform);
+    Geometry trial;
+    add_primitive(trial, 0, *shape, placed);
+    const Box& box = trial.primitives.back().bounds;
+    const float reach = maximum(max_component(absolute(box.lower)), max_component(absolute(box.upper)));
+    if (!(reach <= 2 * largest_coordinate) || box.is_empty())
+        throw std::invalid_argument("Scene: shape must keep its coordinates within 2**60 when placed, got " + format(reach));
+    return {id, std::move(shape), std::move(material), placed};
+}
+
+template <class Record>
+Record& find(std::vector<Record>& records, std::int32_t id, const char* what) {
+    const auto it = std::lower_bound(records.begin(), records.end(), id, [](const Record& r, std::int32_t i) { return r.id < i; });
+    if (it == records.end() || it->id != id) throw std::invalid_argument(std::string("Scene: no ") + what + " with id " + std::to_string(id));
+    return *it;
+}
+
+}  // namespace
+
+Document::Document(const Vec3f& ambient, const Vec3f& background) {
+    set_ambient(ambient);
+    set_background(background);
+    state_.revision = 0;
+}
+
+Document::Document(const Document& other) {
+    const std::scoped_lock lock(other.mutex_);
+    state_ = other.before_ ? *other.before_ : other.state_;
+}
+
+ObjectRecord& Document::object(std::int32_t id) { return find(state_.content.objects, id, "object"); }
+LightRecord& Document::light(std::int32_t id) { return find(state_.content.lights, id, "light"); }
+void Document::edited() { ++state_.revision; }
+
+std::int32_t Document::add_object(ShapePointer shape, MaterialPointer material, const Affine& transform) {
+    const std::scoped_lock lock(mutex_);
+    state_.content.objects.push_back(checked_object(state_.next_object, std::move(shape), std::move(material), transform));
+    edited();
+    return state_.next_object++;
+}
+
+void Document::set_object(std::int32_t id, ShapePointer shape, MaterialPointer material, const Affine& transform) {
+    const std::scoped_lock lock(mutex_);
+    ObjectRecord& record = object(id);
+    record = checked_object(id, std::move(shape), std::move(material), transform);
+    edited();
+}
+
+void Document::remove_object(std::int32_t id) {
+    const std::scoped_lock lock(mutex_);
+    const auto index = &object(id) - state_.content.objects.data();
+    state_.content.objects.erase(state_.content.objects.begin() + index);
+    edited();
+}
+
+std::int32_t Document::add_light(LightPointer value) {
+    if (!value) throw std::invalid_argument("Scene: light must be given");
+    const std::scoped_lock lock(mutex_);
+    state_.content.lights.push_back({state_.next_light, std::move(value)});
+    edited();
+    return state_.next_light++;
+}
+
+void Document::set_light(std::int32_t id, LightPointer value) {
+    if (!value) throw std::invalid_argument("Scene: light must be given");
+    const std::scoped_lock lock(mutex_);
+    light(id).light = std::move(value);
+    edited();
+}
+
+void Document::remove_light(std::int32_t id) {
+    const std::scoped_lock lock(mutex_);
+    const auto index = &light(id) - state_.content.lights.data();
+    state_.content.lights.erase(state_.content.lights.begin() + index);
+    edited();
+}
+
+void Document::set_ambient(const Vec3f& ambient) {
+    require_finite("Scene", "ambient", ambient);
+    const std::scoped_lock lock(mutex_);
+    state_.content.ambient = ambient;
+    edited();
+}
+
+void Document::set_background(const Vec3f& background) {
+    require_finite("Scene", "background", background);
+    const std::scoped_lock lock(mutex_);
+    state_.content.background = background;
+    edited();
+}
+
+void Document::begin_edit() {
+    const std::scoped_lock lock(mutex_);
+    if (before_) throw std::logic_error("Scene: an edit block is already open");
+    before_ = state_;
+}
+
+void Document::commit_edit() {
+    const std::scoped_lock lock(mutex_);
+    if (!before_) throw std::logic_error("Scene: no edit block is open");
+    if (state_.revision != before_->revision) state_.revision = before_->revision + 1;
+    before_.reset();
+}
+
+void Document::rollback_edit() {
+    const std::scoped_lock lock(mutex_);
+    if (!before_) throw std::logic_error("Scene: no edit block is open");
+    state_ = std::move(*before_);
+    before_.reset();
+}
+
+std::int64_t Document::revision() const {
+    const std::scoped_lock lock(mutex_);
+    return before_ ? before_->revision : state_.revision;
+}
+
+Boxd Document::object_bounds(std::int32_t id) const {
+    const std::scoped_lock lock(mutex_);
+    const ObjectRecord& record = const_cast<Document*>(this)->object(id);
+    return shape_bounds(*record.shape, record.transform);
+}
+
+std::optional<Boxd> Document::bounds() const {
+    const std::scoped_lock lock(mutex_);
+    if (state_.content.objects.empty()) return std::nullopt;
+    Boxd box;
+    for (const ObjectRecord& record : state_.content.objects) box.extend(shape_bounds(*record.shape, record.transform));
+    return box;
+}
+
+SnapshotPointer Document::snapshot() const {
+    const std::scoped_lock building(snapshot_mutex_);  // one thread builds, others wait for it
+    State state;
+    {
+        const std::scoped_lock lock(mutex_);
+        const State& current = before_ ? *before_ : state_;
+        if (snapshot_ && snapshot_->revision() == current.revision) return snapshot_;
+        state = current;
+    }
+    snapshot_ = std::make_shared<const Snapshot>(std::move(state.content), state.revision);
+    return snapshot_;
+}
+
+}  // namespace raybound

@@ -1,0 +1,57 @@
+// The scene that scripts edit. Safe from any thread; rendering reads snapshots, so editing never races with it.
+#pragma once
+
+#include <mutex>
+#include <optional>
+
+#include "raybound/scene/snapshot.h"
+
+namespace raybound {
+
+class Document {
+  public:
+    Document(const Vec3f& ambient, const Vec3f& background);
+    Document(const Document& other);
+    Document& operator=(const Document&) = delete;
+
+    // Each throws std::invalid_argument, and changes nothing, if the shape cannot be placed so or the id is unknown.
+    std::int32_t add_object(ShapePointer shape, MaterialPointer material, const Affine& transform);
+    void set_object(std::int32_t id, ShapePointer shape, MaterialPointer material, const Affine& transform);
+    void remove_object(std::int32_t id);
+    std::int32_t add_light(LightPointer light);
+    void set_light(std::int32_t id, LightPointer light);
+    void remove_light(std::int32_t id);
+    void set_ambient(const Vec3f& ambient);
+    void set_background(const Vec3f& background);
+
+    // Between begin and commit the edits are seen by nobody; rollback undoes them all, ids included.
+    void begin_edit();
+    void commit_edit();
+    void rollback_edit();
+
+    std::int64_t revision() const;
+    Boxd object_bounds(std::int32_t id) const;
+    std::optional<Boxd> bounds() const;
+
+    // The committed scene; built at most once for each revision.
+    SnapshotPointer snapshot() const;
+
+  private:
+    struct State {
+        SceneContent content;
+        std::int32_t next_object = 0, next_light = 0;
+        std::int64_t revision = 0;
+    };
+
+    ObjectRecord& object(std::int32_t id);
+    LightRecord& light(std::int32_t id);
+    void edited();
+
+    mutable std::mutex mutex_;
+    State state_;
+    std::optional<State> before_;  // during an edit block: what everybody else sees
+    mutable std::mutex snapshot_mutex_;
+    mutable SnapshotPointer snapshot_;
+};
+
+}  // namespace raybound

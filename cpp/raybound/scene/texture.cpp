@@ -1,0 +1,67 @@
+#include "raybound/scene/texture.h"
+
+#include <stdexcept>
+
+#include "raybound/shapes/shape.h"
+
+namespace raybound {
+
+namespace {
+
+// The coordinate brought into [0, 1] before it is turned into texels, so that no integer can overflow.
+template <class T>
+T wrapped(T x, Wrap wrap) {
+    if (!(abs(x) < T(0x1p40))) return T(0);
+    switch (wrap) {
+        case Wrap::repeat: return x - std::floor(x);
+        case Wrap::clamp: return minimum(maximum(x, T(0)), T(1));
+        default: {
+            const T half = x * T(0.5), phase = (half - std::floor(half)) * T(2);
+            return phase > T(1) ? T(2) - phase : phase;
+        }
+    }
+}
+
+// The two texels around a coordinate and the weight of the second.
+template <class T>
+struct Tap {
+    int first, second;
+    T weight;
+};
+
+template <class T>
+Tap<T> tap(T x, int size, Wrap wrap) {
+    const T position = wrapped(x, wrap) * T(size) - T(0.5);
+    const T base = std::floor(position);
+    const int i = static_cast<int>(base);
+    const auto inside = [&](int k) {
+        if (wrap == Wrap::repeat) return k < 0 ? k + size : k >= size ? k - size : k;
+        return k < 0 ? 0 : k >= size ? size - 1 : k;
+    };
+    return {inside(i), inside(i + 1), position - base};
+}
+
+}  // namespace
+
+Texture::Texture(std::vector<Vec3f> texels, int width, int height, float scale_u, float scale_v, Wrap wrap)
+    : texels_(std::move(texels)), width_(width), height_(height), scale_u_(scale_u), scale_v_(scale_v), wrap_(wrap) {
+    if (width < 1 || height < 1) throw std::invalid_argument("Texture: image must have at least one texel, got " + std::to_string(width) + "x" + std::to_string(height));
+    for (const float s : {scale_u, scale_v})
+        if (!(std::abs(s) <= 0x1p30f) || s == 0) throw std::invalid_argument("Texture: scale must be finite and not zero, got " + format(s));
+    for (const Vec3f& c : texels_)
+        if (!(c.x >= 0 && c.y >= 0 && c.z >= 0 && is_finite(c))) throw std::invalid_argument("Texture: texels must be finite and >= 0, got " + format(c));
+}
+
+template <class T>
+Vec3<T> Texture::lookup(const UV<T>& uv) const {
+    const Tap<T> u = tap(uv.u * T(scale_u_), width_, wrap_), v = tap(uv.v * T(scale_v_), height_, wrap_);
+    const T u1 = u.weight, u0 = T(1) - u1, v1 = v.weight, v0 = T(1) - v1;
+    const Vec3<T> below = Vec3<T>(texel(u.first, v.first)) * u0 + Vec3<T>(texel(u.second, v.first)) * u1;
+    const Vec3<T> above = Vec3<T>(texel(u.first, v.second)) * u0 + Vec3<T>(texel(u.second, v.second)) * u1;
+    return below * v0 + above * v1;
+}
+
+template Vec3<float> Texture::lookup(const UV<float>&) const;
+template Vec3<double> Texture::lookup(const UV<double>&) const;
+
+}  // namespace raybound

@@ -1,0 +1,39 @@
+// Textures: linear RGB texels, looked up bilinearly.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "raybound/shapes/surface.h"
+
+namespace raybound {
+
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+class Texture {
+  public:
+    // Texels row by row, the row at v = 0 (the bottom) first. Throws std::invalid_argument for empty or negative or
+    // non-finite texels and scales of zero.
+    Texture(std::vector<Vec3f> texels, int width, int height, float scale_u, float scale_v, Wrap wrap);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::size_t bytes() const { return texels_.size() * sizeof(Vec3f); }
+
+    // The colour at (u,v), scaled first. Texel centres lie at (i + 1/2) / size.
+    template <class T>
+    Vec3<T> lookup(const UV<T>& uv) const;
+
+  private:
+    const Vec3f& texel(int x, int y) const { return texels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
+
+    std::vector<Vec3f> texels_;
+    int width_, height_;
+    float scale_u_, scale_v_;
+    Wrap wrap_;
+};
+
+using TexturePointer = std::shared_ptr<const Texture>;
+
+}  // namespace raybound

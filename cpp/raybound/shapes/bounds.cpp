@@ -1,0 +1,88 @@
+// Bounds and frames of the primitives.
+#include "raybound/shapes/shape.h"
+
+namespace raybound {
+
+namespace {
+
+// The half extents of the disk spanned by the columns a and b.
+Vec3d disk_extent(const Vec3d& a, const Vec3d& b) {
+    return {std::hypot(a.x, b.x), std::hypot(a.y, b.y), std::hypot(a.z, b.z)};
+}
+
+void extend_around(Boxd& box, const Vec3d& center, const Vec3d& half) {
+    box.extend(center - half);
+    box.extend(center + half);
+}
+
+Boxd frame_bounds(const Shape& shape, const Affine& frame) {
+    const Vec3d x = frame.linear.column(0), y = frame.linear.column(1), z = frame.linear.column(2);
+    const Vec3d round = disk_extent(x, y);
+    Boxd box;
+    switch (shape.kind()) {
+        case ShapeKind::sphere:
+            extend_around(box, frame.offset, {length(frame.linear.row[0]), length(frame.linear.row[1]), length(frame.linear.row[2])});
+            break;
+        case ShapeKind::box: extend_around(box, frame.offset, absolute(x) + absolute(y) + absolute(z)); break;
+        case ShapeKind::cylinder:
+        case ShapeKind::cone: {
+            const double top = shape.kind() == ShapeKind::cone ? double(shape.top_radius()) / double(shape.radius()) : 1.0;
+            extend_around(box, frame.offset, round);
+            extend_around(box, frame.offset + z, round * top);
+            break;
+        }
+        default: extend_around(box, frame.offset, round); break;
+    }
+    return box;
+}
+
+}  // namespace
+
+Box conservative_box(const Boxd& box) {
+    const double reach = maximum(max_component(absolute(box.lower)), max_component(absolute(box.upper)));
+    const double margin = 0x1p-40 * max_component(box.extent()) + 0x1p-50 * reach;
+    const Vec3d m{margin, margin, margin};
+    return round_outward({box.lower - m, box.upper + m});
+}
+
+Affine unit_frame(const Shape& shape) {
+    const Vec3d first(shape.first()), second(shape.second());
+    const double r = shape.radius();
+    switch (shape.kind()) {
+        case ShapeKind::sphere: return {{{r, 0, 0}, {0, r, 0}, {0, 0, r}}, first};
+        case ShapeKind::box: {
+            const Vec3d half = (second - first) * 0.5;
+            return {{{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}}, (first + second) * 0.5};
+        }
+        case ShapeKind::disk: {
+            const Vec3d axis = normalize(second);
+            const auto [u, v] = orthonormal_basis(axis);
+            return {from_columns(u * r, v * r, axis * r), first};
+        }
+        default: {
+            const Vec3d axis = second - first;
+            const auto [u, v] = orthonormal_basis(normalize(axis));
+            return {from_columns(u * r, v * r, axis), first};
+        }
+    }
+}
+
+Boxd shape_bounds(const Shape& shape, const Affine& placement) {
+    Boxd box;
+    switch (shape.kind()) {
+        case ShapeKind::polygon:
+            for (const Vec3f& v : shape.vertices()) box.extend(Vec3d(Vec3f(placement.point(Vec3d(v)))));
+            return box;
+        case ShapeKind::transformed: return shape_bounds(*shape.parts()[0], placement * shape.transform());
+        case ShapeKind::csg_union:
+            for (const auto& part : shape.parts()) box.extend(shape_bounds(*part, placement));
+            return box;
+        case ShapeKind::csg_intersection:
+            box = shape_bounds(*shape.parts()[0], placement);
+            for (const auto& part : shape.parts()) box = intersection(box, shape_bounds(*part, placement));
+            return box;
+        default: return frame_bounds(shape, placement * unit_frame(shape));
+    }
+}
+
+}  // namespace raybound

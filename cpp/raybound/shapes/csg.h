@@ -1,0 +1,117 @@
+// CSG by intervals along the ray (Roth 1982; thesis 4.2.3): each leaf gives the part of the line inside it, unions merge
+// and intersections cut these parts, and the first boundary ahead is the hit. A union so has no inner walls.
+#pragma once
+
+#include "raybound/shapes/leaf.h"
+
+namespace raybound {
+
+template <class T>
+struct Boundary {
+    T t, error;  // error: bounds |t - exact|, for telling coincident faces
+    std::uint32_t node;
+    std::int32_t face;
+    Mask<T> ahead;
+};
+
+template <class T>
+struct Interval {
+    Boundary<T> in, out;
+};
+
+// How far the root t of a face's F along the ray can be from the true one. With |F(t)| <= r: for a slope s = F'(t) and
+// curvature k the nearest root is within 2 r / |s| where the roots are real, and within sqrt(r / |k|) always, since the
+// product of the distances to both roots is |F(t) / k| (derivation D3).
+template <class T>
+inline T root_error(const Surface<T>& surface, const Vec3<T>& direction) {
+    const T residual = abs(surface.form.value) + surface.form.band;
+    const T slope = abs(dot(surface.gradient, direction)), curvature = abs(surface.curvature);
+    const T by_slope = T(2) * residual / slope, by_curvature = sqrt(residual / curvature);
+    const T bound = select(by_curvature < by_slope, by_curvature, by_slope);
+    return select(residual > T(0), bound, T(0));
+}
+
+template <class T>
+inline T boundary_error(const Geometry& geometry, const Leaf& leaf, int face, T t, const Ray<T>& ray) {
+    if (!(abs(t) < infinity<T>)) return T(0);
+    const Vec3<T> p = ray.origin + ray.direction * t;
+    const Surface<T> surface = leaf_surface(geometry, leaf, face, p, ray.direction);
+    const T moved = gamma<T>(3) * dot(absolute(surface.gradient), absolute(ray.origin) + absolute(ray.direction * t));
+    const T slope = abs(dot(surface.gradient, ray.direction));
+    return root_error(surface, ray.direction) + select(slope > T(0), moved / slope, T(0));
+}
+
+// The intervals of an expression, appended to `stack` in order of t; returns whether some leaf could not tell on which
+// side of its surface the origin is.
+template <class T>
+class CsgEvaluation {
+  public:
+    CsgEvaluation(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), ray_(ray) {}
+
+    const std::vector<Interval<T>>& intervals() const { return stack_; }
+    bool unsure() const { return unsure_; }
+
+    void evaluate(std::uint32_t index) {
+        const CsgNode& node = geometry_.csg_nodes[index];
+        switch (node.kind) {
+            case CsgKind::leaf: return push_leaf(index, node);
+            case CsgKind::csg_union: return unite(node);
+            case CsgKind::csg_intersection: return intersect(node);
+        }
+    }
+
+  private:
+    void push_leaf(std::uint32_t index, const CsgNode& node) {
+        const Leaf& leaf = geometry_.leaves[node.first];
+        const Span<T> span = leaf_span(geometry_, leaf, ray_);
+        unsure_ = unsure_ || span.unsure;
+        if (!span.hit) return;
+        stack_.push_back({{span.t_in, boundary_error(geometry_, leaf, span.face_in, span.t_in, ray_), index, span.face_in, span.in_ahead},
+                          {span.t_out, boundary_error(geometry_, leaf, span.face_out, span.t_out, ray_), index, span.face_out, span.out_ahead}});
+    }
+
+    std::uint32_t child(const CsgNode& node, std::uint32_t i) const { return geometry_.csg_children[node.first + i]; }
+
+    // Sorted by entry, intervals that touch within their errors become one: no seam where faces coincide.
+    void unite(const CsgNode& node) {
+        const std::size_t begin = stack_.size();
+        for (std::uint32_t i = 0; i < node.count; ++i) evaluate(child(node, i));
+        const auto first = stack_.begin() + std::ptrdiff_t(begin);
+        std::stable_sort(first, stack_.end(), [](const auto& a, const auto& b) { return a.in.t < b.in.t; });
+        std::size_t last = begin;
+        for (std::size_t i = begin + 1; i < stack_.size(); ++i) {
+            if (stack_[i].in.t - stack_[i].in.error <= stack_[last].out.t + stack_[last].out.error) {
+                if (stack_[i].out.t > stack_[last].out.t) stack_[last].out = stack_[i].out;
+            } else {
+                stack_[++last] = stack_[i];
+            }
+        }
+        if (stack_.size() > begin) stack_.resize(last + 1);
+    }
+
+    // Pairwise overlaps of two sorted lists; one thinner than its errors is nothing.
+    void intersect(const CsgNode& node) {
+        const std::size_t begin = stack_.size();
+        evaluate(child(node, 0));
+        for (std::uint32_t i = 1; i < node.count && stack_.size() > begin; ++i) {
+            const std::size_t middle = stack_.size();
+            evaluate(child(node, i));
+            const std::size_t end = stack_.size();
+            std::size_t a = begin, b = middle;
+            while (a < middle && b < end) {
+                const Interval<T> x = stack_[a], y = stack_[b];
+                const Interval<T> both{y.in.t > x.in.t ? y.in : x.in, y.out.t < x.out.t ? y.out : x.out};
+                if (both.out.t - both.in.t > both.in.error + both.out.error) stack_.push_back(both);
+                ++(x.out.t < y.out.t ? a : b);
+            }
+            stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
+        }
+    }
+
+    const Geometry& geometry_;
+    const Ray<T>& ray_;
+    std::vector<Interval<T>> stack_;
+    bool unsure_ = false;
+};
+
+}  // namespace raybound

@@ -1,0 +1,185 @@
+#include "raybound/shapes/geometry.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace raybound {
+
+namespace {
+
+bool is_scaled_identity(const Mat3<double>& m) {
+    return m == Mat3<double>({m.row[0].x, 0, 0}, {0, m.row[0].x, 0}, {0, 0, m.row[0].x}) && m.row[0].x > 0;
+}
+bool is_positive_diagonal(const Mat3<double>& m) {
+    return m == Mat3<double>({m.row[0].x, 0, 0}, {0, m.row[1].y, 0}, {0, 0, m.row[2].z}) && m.row[0].x > 0 && m.row[1].y > 0 && m.row[2].z > 0;
+}
+
+Vec3f rounded(const Vec3d& v, float& error) {
+    const Vec3f f(v);
+    const Vec3d off = absolute(Vec3d(f) - v);
+    error = maximum(error, next_float_up(float(length(off))));
+    return f;
+}
+
+LeafKind leaf_kind(ShapeKind kind) { return static_cast<LeafKind>(kind); }
+static_assert(static_cast<int>(LeafKind::polygon) == static_cast<int>(ShapeKind::polygon));
+
+// A' = R B^-1 with B the map from unit coordinates to the world, R the power of two at its mean column length.
+Frame make_frame(const Affine& unit, double slope) {
+    const Vec3d c0 = unit.linear.column(0), c1 = unit.linear.column(1), c2 = unit.linear.column(2);
+    const double mean = std::cbrt(length(c0)) * std::cbrt(length(c1)) * std::cbrt(length(c2));
+    const double radius = power_of_two_below(mean);
+    Frame frame;
+    const Mat3<double> inverted = inverse(unit.linear);
+    for (int i = 0; i < 3; ++i) frame.linear_wide.row[i] = inverted.row[i] * radius;
+    frame.center_wide = unit.offset;
+    frame.linear = Mat3<float>(frame.linear_wide);
+    frame.center = Vec3f(frame.center_wide);
+    frame.radius = float(radius);
+    frame.norm = next_float_up(float(norm_infinity(frame.linear_wide) * (1 + 0x1p-40)));
+    frame.slope = slope;
+    frame.inverse_norm = norm_infinity(unit.linear) / radius * (1 + 0x1p-40);
+    return frame;
+}
+
+// Inverting and composing in double leaves an error of about 2^-50 times the condition of the map.
+float frame_surface_error(const Frame& frame) {
+    const double condition = maximum(1.0, double(frame.norm) * frame.inverse_norm);
+    return next_float_up(float(0x1p-48 * condition * (frame.inverse_norm * double(frame.radius) + norm1(frame.center_wide) * 0x1p-4)));
+}
+
+PolygonPlane make_plane(const std::vector<Vec3f>& v) {
+    Vec3d normal;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        normal = normal + cross(Vec3d(v[i]) - Vec3d(v[0]), Vec3d(v[(i + 1) % v.size()]) - Vec3d(v[0]));
+    const Vec3d a = absolute(normal);
+    PolygonPlane plane;
+    plane.axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+    plane.slope_i = float(normal[(plane.axis + 1) % 3] / normal[plane.axis]);
+    plane.slope_j = float(normal[(plane.axis + 2) % 3] / normal[plane.axis]);
+    plane.orientation = normal[plane.axis] > 0 ? 1.0f : -1.0f;
+    const Vec3d u = normalize(Vec3d(v[1]) - Vec3d(v[0])), w = cross(normalize(normal), u);
+    double u_low = 0, u_high = 0, w_low = 0, w_high = 0;
+    for (const Vec3f& p : v) {
+        const Vec3d r = Vec3d(p) - Vec3d(v[0]);
+        u_low = std::min(u_low, dot(u, r)), u_high = std::max(u_high, dot(u, r));
+        w_low = std::min(w_low, dot(w, r)), w_high = std::max(w_high, dot(w, r));
+    }
+    plane.u_axis = Vec3f(u * (1 / (u_high - u_low)));
+    plane.v_axis = Vec3f(w * (1 / (w_high - w_low)));
+    plane.u_offset = float(-u_low / (u_high - u_low));
+    plane.v_offset = float(-w_low / (w_high - w_low));
+    return plane;
+}
+
+void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Affine& placement) {
+    std::vector<Vec3f> placed;
+    for (const Vec3f& v : shape.vertices()) placed.push_back(rounded(placement.point(Vec3d(v)), leaf.surface_error));
+    PolygonPlane plane = make_plane(placed);
+    if (!is_finite(Vec3f(plane.slope_i, plane.slope_j, 0)) || !is_finite(plane.u_axis) || !is_finite(plane.v_axis))
+        throw std::invalid_argument("Polygon: the transform must keep the vertices apart, they collapse when rounded to float32");
+    plane.first_vertex = std::uint32_t(geometry.vertices.size());
+    plane.vertex_count = std::uint32_t(placed.size());
+    // The plane passes through the first vertex; the others are off it by their rounding, or by the user's.
+    for (const Vec3f& v : placed) {
+        const auto form = plane_form(plane, Vec3d(placed[0]), Vec3d(v));
+        leaf.surface_error = maximum(leaf.surface_error, next_float_up(float(std::abs(form.value))));
+    }
+    leaf.polygon = std::uint32_t(geometry.polygons.size());
+    geometry.vertices.insert(geometry.vertices.end(), placed.begin(), placed.end());
+    geometry.polygons.push_back(plane);
+}
+
+// Spheres under a similarity without rotation, and boxes under translation and scaling, need no frame.
+bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
+    if (shape.kind() == ShapeKind::sphere && is_scaled_identity(placement.linear)) {
+        leaf.first = rounded(placement.point(Vec3d(shape.first())), leaf.surface_error);
+        const double radius = placement.linear.row[0].x * double(shape.radius());
+        leaf.radius = float(radius);
+        leaf.surface_error += float(std::abs(double(leaf.radius) - radius)) * (1 + 0x1p-20f);
+        return true;
+    }
+    if (shape.kind() == ShapeKind::box && is_positive_diagonal(placement.linear)) {
+        leaf.first = rounded(placement.point(Vec3d(shape.first())), leaf.surface_error);
+        leaf.second = rounded(placement.point(Vec3d(shape.second())), leaf.surface_error);
+        return leaf.first.x < leaf.second.x && leaf.first.y < leaf.second.y && leaf.first.z < leaf.second.z;
+    }
+    return false;
+}
+
+std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& placement) {
+    Leaf leaf;
+    leaf.kind = leaf_kind(shape.kind());
+    if (shape.kind() == ShapeKind::polygon) {
+        place_polygon(geometry, leaf, shape, placement);
+    } else if (!place_in_world(leaf, shape, placement)) {
+        const double slope = shape.kind() == ShapeKind::cone ? 1 - double(shape.top_radius()) / double(shape.radius()) : 0;
+        const Frame frame = make_frame(placement * unit_frame(shape), slope);
+        leaf.surface_error = frame_surface_error(frame);
+        leaf.frame = std::int32_t(geometry.frames.size());
+        geometry.frames.push_back(frame);
+    }
+    geometry.leaves.push_back(leaf);
+    return std::uint32_t(geometry.leaves.size() - 1);
+}
+
+std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement, std::int32_t& face) {
+    if (shape.kind() == ShapeKind::transformed) return add_csg(geometry, *shape.parts()[0], placement * shape.transform(), face);
+    CsgNode node;
+    if (shape.parts().empty()) {
+        node.face_offset = face;
+        node.first = add_leaf(geometry, shape, placement);
+        face += shape.face_count();
+    } else {
+        node.kind = shape.kind() == ShapeKind::csg_union ? CsgKind::csg_union : CsgKind::csg_intersection;
+        std::vector<std::uint32_t> children;
+        for (const auto& part : shape.parts()) children.push_back(add_csg(geometry, *part, placement, face));
+        node.first = std::uint32_t(geometry.csg_children.size());
+        node.count = std::uint32_t(children.size());
+        geometry.csg_children.insert(geometry.csg_children.end(), children.begin(), children.end());
+    }
+    geometry.csg_nodes.push_back(node);
+    return std::uint32_t(geometry.csg_nodes.size() - 1);
+}
+
+const Shape& strip_transforms(const Shape& shape, Affine& placement) {
+    const Shape* inner = &shape;
+    while (inner->kind() == ShapeKind::transformed) {
+        placement = placement * inner->transform();
+        inner = inner->parts()[0].get();
+    }
+    return *inner;
+}
+
+// The box of what is really there: a polygon's and an unframed leaf's own floats, which differ from the description's
+// by their rounding.
+Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine& placement, std::uint32_t first_leaf) {
+    Boxd box = shape_bounds(shape, placement);
+    double error = 0;
+    for (std::size_t i = first_leaf; i < geometry.leaves.size(); ++i) error = std::max(error, double(geometry.leaves[i].surface_error));
+    const Vec3d margin{error, error, error};
+    return conservative_box({box.lower - margin, box.upper + margin});
+}
+
+}  // namespace
+
+std::size_t Geometry::bytes() const {
+    return primitives.size() * sizeof(Primitive) + leaves.size() * sizeof(Leaf) + frames.size() * sizeof(Frame) +
+           polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3f) + csg_nodes.size() * sizeof(CsgNode) +
+           csg_children.size() * sizeof(std::uint32_t);
+}
+
+void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {
+    const auto first_leaf = std::uint32_t(geometry.leaves.size());
+    Affine map = placement;
+    const Shape& inner = strip_transforms(shape, map);
+    Primitive primitive;
+    primitive.object = object;
+    primitive.is_csg = !inner.parts().empty();
+    std::int32_t face = 0;
+    primitive.root = primitive.is_csg ? add_csg(geometry, inner, map, face) : add_leaf(geometry, inner, map);
+    primitive.bounds = primitive_bounds(geometry, inner, map, first_leaf);
+    geometry.primitives.push_back(primitive);
+}
+
+}  // namespace raybound

@@ -1,0 +1,72 @@
+// The shapes of a scene in the form that rays meet: flat arrays of leaves, in world coordinates.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "raybound/shapes/polygon.h"
+#include "raybound/shapes/shape.h"
+
+namespace raybound {
+
+enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon };
+
+// The map y = A (x - center) from the world to a leaf's own coordinates, in which the shape has the size R, a power of
+// two near its size in the world. The *double* map is the truth; the float one approximates it within the errors that
+// LocalRay carries.
+struct Frame {
+    Mat3<float> linear;
+    Vec3f center;
+    float radius = 1, norm = 1;  // norm: the largest row sum of |A|, rounded up
+    Mat3<double> linear_wide;
+    Vec3d center_wide;
+    double slope = 0;            // of a cone
+    double inverse_norm = 1;     // of A^-1: how far a local distance reaches in the world
+};
+
+// A convex primitive. Without a frame it stands in world coordinates: a sphere (first, radius), a box (first, second),
+// a polygon. surface_error bounds how far the surface that the leaf describes is from the one the user described.
+struct Leaf {
+    LeafKind kind = LeafKind::sphere;
+    std::int32_t frame = -1;
+    std::uint32_t polygon = 0;
+    float surface_error = 0;
+    Vec3f first, second;
+    float radius = 0;
+};
+
+enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection };
+
+// A node of a CSG expression: a leaf (index `first`) or `count` nodes that start at `first` in csg_children.
+struct CsgNode {
+    CsgKind kind = CsgKind::leaf;
+    std::uint32_t first = 0, count = 0;
+    std::int32_t face_offset = 0;
+};
+
+// What the BVH holds, one for each object: a single leaf, or a CSG expression. Rays meet it only where they cross its
+// bounds: that is part of what a hit *is*, so any traversal that is conservative finds the same hits.
+struct Primitive {
+    Box bounds;
+    std::uint32_t object = 0;
+    std::uint32_t root = 0;  // of leaves, or of CSG nodes
+    bool is_csg = false;
+};
+
+struct Geometry {
+    std::vector<Primitive> primitives;
+    std::vector<Leaf> leaves;
+    std::vector<Frame> frames;
+    std::vector<PolygonPlane> polygons;
+    std::vector<Vec3f> vertices;
+    std::vector<CsgNode> csg_nodes;
+    std::vector<std::uint32_t> csg_children;
+
+    std::span<const Vec3f> polygon_vertices(const PolygonPlane& p) const { return {vertices.data() + p.first_vertex, p.vertex_count}; }
+    std::size_t bytes() const;
+};
+
+// Adds a placed shape as one primitive of `object`.
+void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement);
+
+}  // namespace raybound

@@ -1,0 +1,146 @@
+// Dispatch over the kinds of leaves: spans, surfaces and (u,v), each formula in the shape's own header.
+#pragma once
+
+#include "raybound/shapes/box.h"
+#include "raybound/shapes/cone.h"
+#include "raybound/shapes/cylinder.h"
+#include "raybound/shapes/disk.h"
+#include "raybound/shapes/geometry.h"
+#include "raybound/shapes/polygon.h"
+#include "raybound/shapes/sphere.h"
+
+namespace raybound {
+
+template <class T>
+const Mat3<T>& frame_linear(const Frame& frame) {
+    if constexpr (std::is_same_v<T, float>)
+        return frame.linear;
+    else
+        return frame.linear_wide;
+}
+template <class T>
+const Vec3<T>& frame_center(const Frame& frame) {
+    if constexpr (std::is_same_v<T, float>)
+        return frame.center;
+    else
+        return frame.center_wide;
+}
+
+// A point in local coordinates with the bound of its components' error: one rounding of the difference, three of the
+// product, one of the matrix's entries and one of the centre (derivation D1).
+template <class T>
+struct LocalPoint {
+    Vec3<T> y;
+    T error;
+};
+
+template <class T>
+inline LocalPoint<T> to_local(const Frame& frame, const Vec3<T>& p) {
+    const Vec3<T> r = p - frame_center<T>(frame);
+    const T error = T(frame.norm) * (gamma<T>(6) * norm1(r) + gamma<T>(1) * norm1(frame_center<T>(frame)));
+    return {frame_linear<T>(frame) * r, error};
+}
+
+template <class T>
+inline LocalRay<T> local_ray(const Frame& frame, const Ray<T>& ray) {
+    const LocalPoint<T> origin = to_local(frame, ray.origin);
+    const Vec3<T> d = frame_linear<T>(frame) * ray.direction;
+    return {origin.y, d, {T(1) / d.x, T(1) / d.y, T(1) / d.z}, origin.error, T(frame.norm) * gamma<T>(5) * norm1(ray.direction)};
+}
+
+// Without a frame: a sphere's origin is moved by its exact centre, with one rounding.
+template <class T>
+inline LocalPoint<T> to_sphere(const Leaf& leaf, const Vec3<T>& p) {
+    const Vec3<T> y = p - Vec3<T>(leaf.first);
+    return {y, gamma<T>(1) * max_component(absolute(y))};
+}
+
+template <class T>
+inline Span<T> framed_span(const Leaf& leaf, const Frame& frame, const LocalRay<T>& ray) {
+    const T radius = T(frame.radius);
+    switch (leaf.kind) {
+        case LeafKind::sphere: return sphere_span(ray, radius);
+        case LeafKind::box: return box_span(ray, {-radius, -radius, -radius}, {radius, radius, radius});
+        case LeafKind::cylinder: return cylinder_span(ray, radius);
+        case LeafKind::cone: return cone_span(ray, radius, T(frame.slope));
+        default: return disk_span(ray, radius);
+    }
+}
+
+template <class T>
+inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    if (leaf.kind == LeafKind::polygon) {
+        const PolygonPlane& plane = geometry.polygons[leaf.polygon];
+        return polygon_span(plane, geometry.polygon_vertices(plane), ray);
+    }
+    if (leaf.frame >= 0) {
+        const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+        return framed_span(leaf, frame, local_ray(frame, ray));
+    }
+    if (leaf.kind == LeafKind::sphere) {
+        const LocalPoint<T> origin = to_sphere(leaf, ray.origin);
+        return sphere_span(LocalRay<T>{origin.y, ray.direction, ray.reciprocal, origin.error, T(0)}, T(leaf.radius));
+    }
+    return box_span(LocalRay<T>{ray.origin, ray.direction, ray.reciprocal, T(0), T(0)}, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
+}
+
+template <class T>
+inline Surface<T> framed_surface(const Leaf& leaf, const Frame& frame, int face, const LocalPoint<T>& p, const Vec3<T>& d) {
+    const T radius = T(frame.radius);
+    switch (leaf.kind) {
+        case LeafKind::sphere: return sphere_surface(p.y, d, radius, p.error);
+        case LeafKind::box: return box_surface(p.y, face, {-radius, -radius, -radius}, {radius, radius, radius}, p.error);
+        case LeafKind::cylinder: return cylinder_surface(p.y, d, face, radius, p.error);
+        case LeafKind::cone: return cone_surface(p.y, d, face, radius, T(frame.slope), p.error);
+        default: return disk_surface(p.y, p.error);
+    }
+}
+
+// The surface function of a face at a world point; its gradient comes back in world coordinates.
+template <class T>
+inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<T>& p, const Vec3<T>& direction) {
+    if (leaf.kind == LeafKind::polygon) {
+        const PolygonPlane& plane = geometry.polygons[leaf.polygon];
+        return polygon_surface(plane, Vec3<T>(geometry.vertices[plane.first_vertex]), p);
+    }
+    if (leaf.frame >= 0) {
+        const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+        const Mat3<T>& linear = frame_linear<T>(frame);
+        Surface<T> surface = framed_surface(leaf, frame, face, to_local(frame, p), linear * direction);
+        surface.gradient = transpose_times(linear, surface.gradient);
+        return surface;
+    }
+    if (leaf.kind == LeafKind::sphere) {
+        const LocalPoint<T> local = to_sphere(leaf, p);
+        return sphere_surface(local.y, direction, T(leaf.radius), local.error);
+    }
+    return box_surface(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second), T(0));
+}
+
+template <class T>
+inline UV<T> framed_uv(const Leaf& leaf, const Frame& frame, int face, const Vec3<T>& y) {
+    const T radius = T(frame.radius);
+    switch (leaf.kind) {
+        case LeafKind::sphere: return sphere_uv(y, radius);
+        case LeafKind::box: return box_uv(y, face, {-radius, -radius, -radius}, {radius, radius, radius});
+        case LeafKind::cylinder: return cylinder_uv(y, face, radius);
+        case LeafKind::cone: return cone_uv(y, face, radius, T(frame.slope));
+        default: return disk_uv(y.x, y.y, radius);
+    }
+}
+
+template <class T>
+inline UV<T> leaf_uv(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<T>& p) {
+    if (leaf.kind == LeafKind::polygon) {
+        const PolygonPlane& plane = geometry.polygons[leaf.polygon];
+        return polygon_uv(plane, Vec3<T>(geometry.vertices[plane.first_vertex]), p);
+    }
+    if (leaf.frame >= 0) {
+        const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+        return framed_uv(leaf, frame, face, to_local(frame, p).y);
+    }
+    if (leaf.kind == LeafKind::sphere) return sphere_uv(to_sphere(leaf, p).y, T(leaf.radius));
+    return box_uv(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
+}
+
+}  // namespace raybound

@@ -1,0 +1,107 @@
+// The convex polygon, in world coordinates. One face; the normal sees the vertices counter-clockwise.
+#pragma once
+
+#include <span>
+
+#include "raybound/shapes/disk.h"
+
+namespace raybound {
+
+// The plane is F(x) = orientation * ((x_k - v_k) + m_i (x_i - v_i) + m_j (x_j - v_j)), k the dominant axis of the normal
+// and |m| <= 1, with v the first vertex: exact for the floats that define it, without a unit normal to round.
+struct PolygonPlane {
+    std::uint32_t first_vertex = 0, vertex_count = 0;
+    int axis = 2;
+    float slope_i = 0, slope_j = 0, orientation = 1;
+    Vec3f u_axis, v_axis;  // (u,v) = offset + axis . (p - v)
+    float u_offset = 0, v_offset = 0;
+};
+
+template <class T>
+inline Banded<T> plane_form(const PolygonPlane& plane, const Vec3<T>& v, const Vec3<T>& p) {
+    const int k = plane.axis, i = (k + 1) % 3, j = (k + 2) % 3;
+    const T height = p[k] - v[k], along_i = T(plane.slope_i) * (p[i] - v[i]), along_j = T(plane.slope_j) * (p[j] - v[j]);
+    return {T(plane.orientation) * (height + along_i + along_j),
+            gamma<T>(5) * (abs(height) + abs(along_i) + abs(along_j))};
+}
+
+template <class T>
+inline Vec3<T> plane_gradient(const PolygonPlane& plane) {
+    Vec3<T> gradient;
+    gradient[plane.axis] = T(plane.orientation);
+    gradient[(plane.axis + 1) % 3] = T(plane.orientation * plane.slope_i);
+    gradient[(plane.axis + 2) % 3] = T(plane.orientation * plane.slope_j);
+    return gradient;
+}
+
+// The ray's own coordinates: its largest direction component becomes z, the others are sheared away (Woop, Benthin and
+// Wald 2013). Edges shared by two polygons give the same floats from both sides, so nothing passes between them.
+template <class T>
+struct Shear {
+    int kx, ky, kz;
+    T sx, sy;
+
+    explicit Shear(const Vec3<T>& d) {
+        const Vec3<T> a = absolute(d);
+        kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+        kx = (kz + 1) % 3;
+        ky = (kz + 2) % 3;
+        sx = d[kx] / d[kz];
+        sy = d[ky] / d[kz];
+    }
+    T x(const Vec3<T>& p) const { return p[kx] - sx * p[kz]; }
+    T y(const Vec3<T>& p) const { return p[ky] - sy * p[kz]; }
+};
+
+// The sign of ax by - ay bx is right where it is not zero (rounding is monotone); zero is asked again in double, where
+// the product of two floats is exact (seeds/000, 3.9.3).
+inline double edge_side(float ax, float ay, float bx, float by) {
+    const float e = ax * by - ay * bx;
+    return e != 0 ? double(e) : double(ax) * double(by) - double(ay) * double(bx);
+}
+inline double edge_side(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
+
+// Does the line pass through the polygon, seen from either side? A line through an edge or a vertex does.
+template <class T>
+inline bool line_pierces(std::span<const Vec3f> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
+    const Shear<T> shear(direction);
+    const Vec3<T> last = Vec3<T>(vertices.back()) - origin;
+    T ax = shear.x(last), ay = shear.y(last);
+    bool left = true, right = true;
+    for (const Vec3f& vertex : vertices) {
+        const Vec3<T> b = Vec3<T>(vertex) - origin;
+        const T bx = shear.x(b), by = shear.y(b);
+        const double side = edge_side(ax, ay, bx, by);
+        left = left && side >= 0;
+        right = right && side <= 0;
+        if (!(left || right)) return false;
+        ax = bx;
+        ay = by;
+    }
+    return true;
+}
+
+template <class T>
+inline Span<T> polygon_span(const PolygonPlane& plane, std::span<const Vec3f> vertices, const Ray<T>& ray) {
+    const Banded<T> height = plane_form(plane, Vec3<T>(vertices[0]), ray.origin);
+    const T climb = dot(plane_gradient<T>(plane), ray.direction);
+    Span<T> span = sheet_span(-(height.value / climb), height, climb, Mask<T>(true));
+    const Mask<T> needed = span.hit & (span.in_ahead | span.unsure);
+    if (none(needed)) return span;
+    span.hit = needed & line_pierces(vertices, ray.origin, ray.direction);
+    return span;
+}
+
+template <class T>
+inline Surface<T> polygon_surface(const PolygonPlane& plane, const Vec3<T>& first, const Vec3<T>& p) {
+    return {plane_form(plane, first, p), plane_gradient<T>(plane), T(0)};
+}
+
+// u along the first edge, v across it in the plane, both from 0 to 1 over the polygon's extent.
+template <class T>
+inline UV<T> polygon_uv(const PolygonPlane& plane, const Vec3<T>& first, const Vec3<T>& p) {
+    const Vec3<T> r = p - first;
+    return {dot(Vec3<T>(plane.u_axis), r) + T(plane.u_offset), dot(Vec3<T>(plane.v_axis), r) + T(plane.v_offset)};
+}
+
+}  // namespace raybound

@@ -1,0 +1,67 @@
+// Roots of a t^2 + 2 b t + c along a ray, with what can be said for certain about their signs (derivation D2).
+#pragma once
+
+#include "raybound/shapes/span.h"
+
+namespace raybound {
+
+// The value of a surface function with a bound of its error.
+template <class T>
+struct Banded {
+    T value, band;
+};
+
+template <class T>
+struct Quadratic {
+    T a, b, discriminant;  // discriminant: b^2 - a c, from a form that does not cancel (Lagrange's identity)
+    Banded<T> c;
+    T b_band;
+};
+
+template <class T>
+struct Roots {
+    T low, high;
+    Mask<T> real, low_ahead, high_ahead, unsure;
+};
+
+// Signs of roots follow from those of a, b and c alone, not from rounded roots. With P = c/a the product and
+// S = -2b/a the sum: P > 0 gives two roots of the sign of S, P < 0 one of each. Where |c| is within its band (the
+// origin is on the surface) one root is "at the origin" and not ahead; the other has the sign of S.
+template <class T>
+inline Roots<T> solve(const Quadratic<T>& q) {
+    const T root = sqrt(maximum(T(0), q.discriminant));
+    const T stable = -(q.b + copysign(root, q.b));
+    const T first = stable / q.a;
+    const T second = select(stable == T(0), first, q.c.value / stable);
+    const T sign = copysign(T(1), q.a);
+    const T product = q.c.value * sign, sum = -q.b * sign;
+    Roots<T> roots;
+    roots.low = minimum(first, second);
+    roots.high = maximum(first, second);
+    roots.real = q.discriminant >= T(0);
+    roots.unsure = abs(q.c.value) <= q.c.band;
+    const Mask<T> rising = sum > select(roots.unsure, q.b_band, T(0));
+    roots.low_ahead = (product > q.c.band) & rising;
+    roots.high_ahead = (product < -q.c.band) | rising;
+    return roots;
+}
+
+// |f . d computed - exact| for components of f and d with the given errors and 1-norms: three products and two sums,
+// and the errors of the factors.
+template <class T>
+inline T dot_band(T f_norm, T d_norm, T f_error, T d_error) {
+    return gamma<T>(4) * f_norm * d_norm + f_error * d_norm + d_error * f_norm + T(3) * f_error * d_error;
+}
+
+// The same for f . f - R^2, where `squares` is f . f + R^2.
+template <class T>
+inline T square_band(T f_norm, T squares, T f_error) {
+    return gamma<T>(6) * squares + (T(2) * f_norm + T(3) * f_error) * f_error;
+}
+
+template <class T>
+inline Span<T> between(const Roots<T>& roots, int face) {
+    return {roots.low, roots.high, face, face, roots.real, roots.low_ahead, roots.high_ahead, roots.unsure};
+}
+
+}  // namespace raybound

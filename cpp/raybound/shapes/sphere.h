@@ -1,0 +1,47 @@
+// The sphere |y| = R about the local origin.  F(y) = |y|^2 - R^2.
+#pragma once
+
+#include "raybound/shapes/quadratic.h"
+#include "raybound/shapes/surface.h"
+
+namespace raybound {
+
+template <class T>
+inline Banded<T> sphere_form(const Vec3<T>& y, T radius, T error) {
+    const T squared = dot(y, y), r2 = radius * radius;
+    return {squared - r2, square_band(norm1(y), squared + r2, error)};
+}
+
+// Discriminant by Lagrange's identity: (f.d)^2 - |d|^2 (|f|^2 - R^2) = R^2 |d|^2 - |f x d|^2, which keeps its digits
+// when the origin is far away.
+template <class T>
+inline Quadratic<T> sphere_quadratic(const LocalRay<T>& ray, T radius) {
+    const Vec3<T>&f = ray.origin, &d = ray.direction;
+    const Vec3<T> moment = cross(f, d);
+    Quadratic<T> q;
+    q.a = dot(d, d);
+    q.b = dot(f, d);
+    q.c = sphere_form(f, radius, ray.origin_error);
+    q.discriminant = radius * radius * q.a - dot(moment, moment);
+    q.b_band = dot_band(norm1(f), norm1(d), ray.origin_error, ray.direction_error);
+    return q;
+}
+
+template <class T>
+inline Span<T> sphere_span(const LocalRay<T>& ray, T radius) {
+    return between(solve(sphere_quadratic(ray, radius)), 0);
+}
+
+template <class T>
+inline Surface<T> sphere_surface(const Vec3<T>& y, const Vec3<T>& d, T radius, T error) {
+    return {sphere_form(y, radius, error), y * T(2), dot(d, d)};
+}
+
+// u: longitude from +x, counter-clockwise seen from +z; v: from the south pole (0) to the north pole (1).
+template <class T>
+inline UV<T> sphere_uv(const Vec3<T>& y, T radius) {
+    const T cosine = minimum(maximum(y.z / radius, T(-1)), T(1));
+    return {turn(y.y, y.x), T(1) - acos(cosine) * T(1 / elementary::pi)};
+}
+
+}  // namespace raybound

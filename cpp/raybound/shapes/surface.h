@@ -1,0 +1,43 @@
+// A face of a shape as the zero set of a function F, negative inside: what hit points are polished with.
+#pragma once
+
+#include "raybound/numbers/elementary.h"
+#include "raybound/shapes/quadratic.h"
+
+namespace raybound {
+
+// F at a point (with the bound of its error), its gradient there, and its second-order coefficient along a direction d
+// (F(y + s d) = F + s gradient.d + s^2 curvature).
+template <class T>
+struct Surface {
+    Banded<T> form;
+    Vec3<T> gradient;
+    T curvature;
+};
+
+template <class T>
+struct UV {
+    T u{}, v{};
+};
+
+// The angle of (x, y) as a fraction of a turn in [0, 1].
+template <class T>
+inline T turn(T y, T x) {
+    const T fraction = atan2(y, x) * T(0.5 / elementary::pi);
+    return select(fraction < T(0), fraction + T(1), fraction);
+}
+
+// The plane where coordinate `axis` is `level`; `sign` +1 if the solid lies below.
+template <class T>
+inline Surface<T> axis_plane_surface(const Vec3<T>& y, int axis, T level, T sign, T error) {
+    Vec3<T> gradient;
+    gradient[axis] = sign;
+    return {{sign * (y[axis] - level), error + gamma<T>(1) * abs(y[axis] - level)}, gradient, T(0)};
+}
+
+template <class T>
+inline UV<T> disk_uv(T x, T y, T radius) {
+    return {(x / radius + T(1)) * T(0.5), (y / radius + T(1)) * T(0.5)};
+}
+
+}  // namespace raybound

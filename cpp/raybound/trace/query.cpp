@@ -1,0 +1,114 @@
+#include "raybound/trace/query.h"
+
+#include <stdexcept>
+
+namespace raybound {
+
+namespace {
+
+template <class T, class S>
+void store(const Vec3<T>& v, S (&out)[3]) {
+    for (int i = 0; i < 3; ++i) out[i] = S(v[i]);
+}
+
+template <class T>
+Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale, std::size_t index) {
+    if (!scale_direction(direction, scale)) throw std::invalid_argument("directions must not be zero, direction " + std::to_string(index) + " is");
+    return make_ray(origin, direction);
+}
+
+HitRecord miss() {
+    HitRecord record{};
+    record.t = infinity<float>;
+    record.object_id = record.face_id = -1;
+    return record;
+}
+
+HitRecord hit_record(const Snapshot& scene, const Nearest<float>& nearest, const Ray<float>& ray, float scale) {
+    const SurfacePoint<float> at = surface_point(scene.geometry(), nearest.crossing, ray);
+    HitRecord record{};
+    record.hit = true;
+    record.t = at.t / scale;
+    record.t_error = scale == 1 ? at.t_error : next_float_up(at.t_error / scale);
+    store(at.point, record.point);
+    store(at.point_error, record.point_error);
+    store(at.normal, record.normal);
+    record.uv[0] = at.uv.u;
+    record.uv[1] = at.uv.v;
+    record.object_id = scene.objects()[scene.geometry().primitives[nearest.primitive].object].id;
+    record.face_id = nearest.crossing.face_offset + nearest.crossing.face;
+    return record;
+}
+
+// The epsilon policies take the plain point o + t d and move it by 1e-5, or by 10 ulp of each coordinate.
+template <class T>
+Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& n, Offsets offsets) {
+    if (offsets == Offsets::epsilon) return p + n * T(1e-5);
+    const Vec3<T> step = absolute(p) * (T(2) * NumberTraits<T>::unit_roundoff * T(10));
+    return p + n * step;
+}
+
+template <class T>
+ShapeHitRecord shape_record(const Geometry& geometry, const Crossing<T>& crossing, const Ray<T>& ray, T scale, Offsets offsets) {
+    const SurfacePoint<T> at = surface_point(geometry, crossing, ray);
+    ShapeHitRecord record{};
+    record.hit = true;
+    record.t = double(at.t) / double(scale);
+    record.t_error = next_float_up(double(at.t_error) / double(scale));
+    const bool bounded = offsets == Offsets::bounded;
+    const Vec3<T> p = bounded ? at.point : ray.origin + ray.direction * crossing.t;
+    store(p, record.point);
+    store(at.point_error, record.point_error);
+    store(at.normal, record.normal);
+    record.uv[0] = double(at.uv.u);
+    record.uv[1] = double(at.uv.v);
+    record.face_id = crossing.face_offset + crossing.face;
+    store(bounded ? offset_origin(p, at.point_error, at.normal) : epsilon_origin(p, at.normal, offsets), record.next_origin);
+    return record;
+}
+
+}  // namespace
+
+std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions) {
+    std::vector<HitRecord> records(origins.size(), miss());
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        float scale;
+        const Ray<float> ray = user_ray(origins[i], directions[i], scale, i);
+        const Nearest<float> nearest = closest_hit(scene, ray);
+        if (nearest.hit) records[i] = hit_record(scene, nearest, ray, scale);
+    }
+    return records;
+}
+
+std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> targets) {
+    std::vector<std::uint8_t> blocked(origins.size());
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (origins[i] == targets[i]) continue;
+        blocked[i] = is_blocked(scene, make_segment(origins[i], targets[i]), nullptr);
+    }
+    return blocked;
+}
+
+template <class T>
+std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins, std::span<const Vec3d> directions, Offsets offsets) {
+    Geometry geometry;
+    add_primitive(geometry, 0, shape, {});
+    const Primitive& primitive = geometry.primitives.front();
+    std::vector<ShapeHitRecord> records(origins.size());
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        records[i].t = infinity<double>;
+        records[i].face_id = -1;
+        T scale, entry;
+        const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale, i);
+        if (!crosses(primitive.bounds, ray, infinity<T>, &entry)) continue;
+        Crossing<T> crossing = first_crossing(geometry, primitive, ray);
+        crossing.t = maximum(crossing.t, entry);
+        if (crossing.hit && crossing.t < infinity<T>) records[i] = shape_record(geometry, crossing, ray, scale, offsets);
+    }
+    return records;
+}
+
+template std::vector<ShapeHitRecord> intersect_shape<float>(const Shape&, std::span<const Vec3d>, std::span<const Vec3d>, Offsets);
+template std::vector<ShapeHitRecord> intersect_shape<double>(const Shape&, std::span<const Vec3d>, std::span<const Vec3d>, Offsets);
+
+}  // namespace raybound

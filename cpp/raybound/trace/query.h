@@ -1,0 +1,40 @@
+// Questions about rays, many at once: what they hit, whether segments are blocked, how one shape answers.
+#pragma once
+
+#include <span>
+
+#include "raybound/trace/search.h"
+
+namespace raybound {
+
+// One answer. A miss has t infinite, ids -1 and zeros.
+struct HitRecord {
+    bool hit;
+    float t, t_error;
+    float point[3], point_error[3], normal[3], uv[2];
+    std::int32_t object_id, face_id;
+};
+
+// t is in units of each direction's length. Throws std::invalid_argument for a zero direction.
+std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions);
+
+// Is there anything certainly between origin and target? Origins are taken as they are, nothing is offset.
+std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> targets);
+
+// How an origin is moved off a surface: by the error bounds, or, to measure against, by a fixed or a scaled epsilon
+// (seeds/004).
+enum class Offsets { bounded, epsilon, scaled_epsilon };
+
+struct ShapeHitRecord {
+    bool hit;
+    double t, t_error;
+    double point[3], point_error[3], normal[3], uv[2];
+    std::int32_t face_id;
+    double next_origin[3];  // of a ray that leaves along the normal
+};
+
+// One shape alone, with the kernels of type T.
+template <class T>
+std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins, std::span<const Vec3d> directions, Offsets offsets);
+
+}  // namespace raybound

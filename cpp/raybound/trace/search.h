@@ -1,0 +1,26 @@
+// Searches of the scene: the closest hit, and whether anything blocks a segment.
+#pragma once
+
+#include "raybound/scene/snapshot.h"
+
+namespace raybound {
+
+// The closest crossing: the lexicographic minimum of (t, object, face).
+template <class T>
+struct Nearest {
+    Crossing<T> crossing{};
+    T t = infinity<T>;
+    std::uint32_t primitive = 0;
+    bool hit = false;
+};
+
+enum class Acceleration { bvh, brute_force };
+
+template <class T>
+Nearest<T> closest_hit(const Snapshot& scene, const Ray<T>& ray, Acceleration acceleration = Acceleration::bvh);
+
+// Something opaque lies certainly between the ray's origin and its end; `blocker` (may be null) is told which object.
+template <class T>
+bool is_blocked(const Snapshot& scene, const Ray<T>& ray, std::int32_t* blocker, Acceleration acceleration = Acceleration::bvh);
+
+}  // namespace raybound

@@ -1,0 +1,83 @@
+// The local shading model (thesis 4.3.2) and the directions of secondary rays: the formulas of light, written once.
+#pragma once
+
+#include "raybound/scene/material.h"
+
+namespace raybound {
+
+template <class T>
+inline constexpr T largest = std::numeric_limits<T>::max();
+
+// Sums and products of radiance may exceed the range of T; the largest number stands for "beyond": no infinity, and so
+// no NaN, enters a picture.
+template <class T>
+inline Vec3<T> saturate(const Vec3<T>& c) {
+    return {minimum(c.x, largest<T>), minimum(c.y, largest<T>), minimum(c.z, largest<T>)};
+}
+
+// exp((1 - 1/x^2) / sigma^2): Ward's lobe over the cosine x = N.H, since 1 - 1/x^2 = -tan^2 (thesis eq. 4.2, with the
+// sign of 4.3 corrected).
+template <class T>
+inline T ward_lobe(T cosine, T sigma) {
+    return exp((T(1) - T(1) / square(cosine)) / square(sigma));
+}
+
+// exp(...) sqrt(N.L / N.V) / (4 sigma^2): the specular term without rho_s; 0 where rounding leaves N.V <= 0.
+template <class T>
+inline T ward_specular(const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v, T n_dot_l, T n_dot_v, T sigma) {
+    const Vec3<T> h = normalize(l + v);
+    const T lobe = ward_lobe(dot(n, h), sigma);
+    const T value = lobe * sqrt(n_dot_l / n_dot_v) / (T(4) * square(sigma));
+    return select(n_dot_v > T(0), minimum(value, largest<T>), T(0));
+}
+
+// rho_d (N.L) + rho_s specular (thesis eq. 4.1 and 4.2; Ward's 1/pi is folded into the light).
+template <class T>
+inline Vec3<T> reflectance(const Vec3<T>& diffuse, const Material& material, const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v,
+                           T n_dot_l, T n_dot_v) {
+    Vec3<T> value = diffuse * n_dot_l;
+    if (material.specular == Vec3f{}) return value;
+    return value + Vec3<T>(material.specular) * ward_specular(n, l, v, n_dot_l, n_dot_v, T(material.roughness));
+}
+
+// What arrives from a light at p, before anything is asked about shadows.
+template <class T>
+struct Incoming {
+    Vec3<T> direction;   // L, a unit vector
+    Vec3<T> irradiance;  // E: zero outside a spotlight's cone
+};
+
+template <class T>
+inline Incoming<T> incoming(const Light& light, const Vec3<T>& p) {
+    if (light.kind == LightKind::directional) return {-Vec3<T>(light.direction), Vec3<T>(light.intensity)};
+    const Vec3<T> to_light = Vec3<T>(light.position) - p;
+    const T squared = dot(to_light, to_light);
+    const Vec3<T> l = to_light * (T(1) / sqrt(squared));
+    Vec3<T> e(light.intensity);
+    if (light.falloff) e = saturate(e * (T(1) / squared));
+    const Mask<T> inside = dot(-l, Vec3<T>(light.direction)) >= T(light.cos_cutoff);
+    if (light.kind == LightKind::spot) e = select(inside, e, Vec3<T>{});
+    return {l, select(squared > T(0), e, Vec3<T>{})};
+}
+
+template <class T>
+inline Vec3<T> reflected_direction(const Vec3<T>& d, const Vec3<T>& n) {
+    return d - n * (T(2) * dot(d, n));
+}
+
+// Snell's law for the normal turned toward the viewer: eta is the ratio of the indices before and behind the surface.
+template <class T>
+struct Refraction {
+    Vec3<T> direction;
+    Mask<T> total;  // total internal reflection: there is no direction
+};
+
+template <class T>
+inline Refraction<T> refract(const Vec3<T>& d, const Vec3<T>& n, T eta) {
+    const T cosine = -dot(d, n);
+    const T k = T(1) - square(eta) * (T(1) - square(cosine));
+    const Vec3<T> t = d * eta + n * (eta * cosine - sqrt(maximum(T(0), k)));
+    return {normalize(t), k < T(0)};
+}
+
+}  // namespace raybound

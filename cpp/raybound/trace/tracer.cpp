@@ -1,0 +1,138 @@
+#include "raybound/trace/tracer.h"
+
+#include "raybound/trace/shading.h"
+
+namespace raybound {
+
+// A hit, ready for light: N is turned toward the viewer V.
+template <class T>
+struct Tracer<T>::Shadable {
+    SurfacePoint<T> hit;
+    const Material& material;
+    Vec3<T> normal, view, diffuse;
+    bool entering;  // the ray comes from outside: against the outward normal
+};
+
+template <class T>
+EyeSample<T> Tracer<T>::sample(const Vec3<T>& origin, const Vec3<T>& direction) {
+    EyeSample<T> first{{}, infinity<T>, -1};
+    ++counts_.eye;
+    first.radiance = radiance(make_ray(origin, direction), 1, NoRecord{}, &first);
+    return first;
+}
+
+template <class T>
+RayTreeNode Tracer<T>::ray_tree(const Vec3<T>& origin, const Vec3<T>& direction) {
+    RayTreeNode root;
+    ++counts_.eye;
+    radiance(make_ray(origin, direction), 1, RecordTree{&root}, nullptr);
+    return root;
+}
+
+template <class T>
+template <class Record>
+Vec3<T> Tracer<T>::radiance(const Ray<T>& ray, int depth, Record record, EyeSample<T>* first) {
+    if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return {};
+    const Nearest<T> nearest = closest_hit(scene_, ray, settings_.acceleration);
+    Vec3<T> value(scene_.background());
+    T t = infinity<T>;
+    if (nearest.hit) value = shade(ray, nearest, depth, record, &t);
+    const std::int32_t object = nearest.hit ? scene_.objects()[scene_.geometry().primitives[nearest.primitive].object].id : -1;
+    if (first) first->t = t, first->object = object;
+    if constexpr (Record::active) {
+        record.node->origin = Vec3d(ray.origin);
+        record.node->direction = Vec3d(ray.direction);
+        record.node->hit = nearest.hit;
+        record.node->t = double(t);
+        record.node->object = object;
+        record.node->radiance = Vec3d(value);
+    }
+    return value;
+}
+
+template <class T>
+template <class Record>
+Vec3<T> Tracer<T>::shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth, Record record, T* t) {
+    const Geometry& geometry = scene_.geometry();
+    const SurfacePoint<T> hit = surface_point(geometry, nearest.crossing, ray);
+    const Material& material = *scene_.objects()[geometry.primitives[nearest.primitive].object].material;
+    const bool entering = !(dot(ray.direction, hit.normal) > T(0));
+    const Vec3<T> diffuse = material.texture ? material.texture->lookup(hit.uv) : Vec3<T>(material.diffuse);
+    const Shadable at{hit, material, entering ? hit.normal : -hit.normal, -ray.direction, diffuse, entering};
+    *t = hit.t;
+    if constexpr (Record::active) {
+        record.node->point = Vec3d(hit.point);
+        record.node->normal = Vec3d(hit.normal);
+        record.node->face = nearest.crossing.face_offset + nearest.crossing.face;
+    }
+    const Vec3<T> local = direct_light(at, record);
+    return depth < settings_.max_depth ? add_secondary(local, ray, at, depth, record) : local;
+}
+
+template <class T>
+template <class Record>
+Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
+    const T n_dot_v = dot(at.normal, at.view);
+    Vec3<T> sum = saturate(Vec3<T>(scene_.ambient()) * at.diffuse);
+    for (const LightRecord& entry : scene_.lights()) {
+        const Light& light = *entry.light;
+        const Incoming<T> from = incoming(light, at.hit.point);
+        const T n_dot_l = dot(at.normal, from.direction);
+        const bool faces = n_dot_l > T(0), shines = max_component(from.irradiance) > T(0);
+        LightVerdict verdict = !faces ? LightVerdict::behind : LightVerdict::outside_cone;
+        std::int32_t blocker = -1;
+        if (faces && shines) {
+            const Vec3<T> factor = saturate(reflectance(at.diffuse, at.material, at.normal, from.direction, at.view, n_dot_l, n_dot_v));
+            const bool weighs = Record::active || max_component(factor) > T(0);  // rays of weight zero are not traced
+            const bool lit = weighs && is_lit(at, light, from.direction, &blocker);
+            if (lit) sum = saturate(sum + from.irradiance * factor);
+            verdict = lit ? LightVerdict::lit : LightVerdict::blocked;
+        }
+        if constexpr (Record::active) record.node->lights.push_back({entry.id, verdict, blocker});
+    }
+    return sum;
+}
+
+// A shadow ray starts outside the error box of the hit and ends at the light itself.
+template <class T>
+bool Tracer<T>::is_lit(const Shadable& at, const Light& light, const Vec3<T>& direction, std::int32_t* blocker) {
+    ++counts_.shadow;
+    const Vec3<T> origin = offset_origin(at.hit.point, at.hit.point_error, at.normal);
+    const bool directional = light.kind == LightKind::directional;
+    const Ray<T> ray = directional ? make_ray(origin, direction) : make_segment(origin, Vec3<T>(light.position));
+    return !is_blocked(scene_, ray, blocker, settings_.acceleration);
+}
+
+// local + reflect L(R) + transmit L(T), in this order.
+template <class T>
+template <class Record>
+Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth, Record record) {
+    const Material& material = at.material;
+    Vec3<T> sum = local, reflect(material.reflect), transmit(material.transmit), through;
+    if (max_component(transmit) > T(0)) {
+        const T ior(material.ior);
+        const Refraction<T> refraction = refract(ray.direction, at.normal, at.entering ? T(1) / ior : ior);
+        through = refraction.direction;
+        if (refraction.total) {  // the transmit weight joins the reflected ray
+            reflect = saturate(reflect + transmit);
+            transmit = {};
+            if constexpr (Record::active) record.node->total_internal_reflection = true;
+        }
+    }
+    if (max_component(reflect) > T(0)) {
+        ++counts_.reflected;
+        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, at.normal), reflected_direction(ray.direction, at.normal));
+        sum = saturate(sum + reflect * radiance(next, depth + 1, record.child(RayKind::reflected), nullptr));
+    }
+    if (max_component(transmit) > T(0)) {
+        ++counts_.refracted;
+        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, -at.normal), through);
+        sum = saturate(sum + transmit * radiance(next, depth + 1, record.child(RayKind::refracted), nullptr));
+    }
+    return sum;
+}
+
+template class Tracer<float>;
+template class Tracer<double>;
+
+}  // namespace raybound

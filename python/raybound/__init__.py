@@ -1,0 +1,77 @@
+"""raybound: fast ray tracing by interpolating radiance with a certified error.
+
+    import raybound as rb
+
+    scene = rb.Scene(background=(0.2, 0.3, 0.5))
+    ball = scene.add(rb.Sphere(), rb.Material(diffuse=(0.8, 0.2, 0.1)))
+    scene.add_light(rb.PointLight((3, -4, 5)))
+    frame = rb.render(scene, rb.Camera(eye=(0, -5, 1), target=(0, 0, 0)))
+    frame.save("ball.png")
+
+Lengths are in scene units, angles in degrees, colours linear RGB (Rec. 709 primaries). The package logs under
+"raybound".
+"""
+
+import logging as _logging
+
+from . import _core
+from .camera import Camera
+from .enums import Path, Reason
+from .floats import gamma, intersect, next_float_down, next_float_up, spawn_origin
+from .frame import Frame
+from .handles import LightHandle, Object
+from .lights import DirectionalLight, PointLight, SpotLight
+from .materials import Material, Texture
+from .renderer import Renderer, TraceResult, render
+from .reporting import report
+from .scene import Scene
+from .scene_file import load_scene
+from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Shape, Sphere, Union
+from .tolerance import Tolerance
+from .transform import Transform
+
+from . import plot, scenes, testing  # isort: skip  # they use the names above
+
+__version__ = str(_core.build_info()["version"])
+
+__all__ = [
+    "Box",
+    "Camera",
+    "Cone",
+    "Cylinder",
+    "DirectionalLight",
+    "Disk",
+    "Frame",
+    "Intersection",
+    "LightHandle",
+    "Material",
+    "Object",
+    "Path",
+    "PointLight",
+    "Polygon",
+    "Reason",
+    "Renderer",
+    "Scene",
+    "Shape",
+    "Sphere",
+    "SpotLight",
+    "Texture",
+    "Tolerance",
+    "TraceResult",
+    "Transform",
+    "Union",
+    "__version__",
+    "gamma",
+    "intersect",
+    "load_scene",
+    "next_float_down",
+    "next_float_up",
+    "plot",
+    "render",
+    "report",
+    "scenes",
+    "spawn_origin",
+    "testing",
+]
+
+_logging.getLogger("raybound").addHandler(_logging.NullHandler())

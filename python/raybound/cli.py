@@ -1,0 +1,148 @@
+"""The command line: `python -m raybound render|demo|bench`. The only module that prints."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from . import images, scenes
+from .camera import Camera
+from .demo import make_demo
+from .renderer import METHODS, Renderer
+from .scene import Scene
+from .scene_file import camera_from_dict, load_scene
+from .tolerance import Tolerance
+
+READY = {"museum": False, "three_spheres": False, "sphereflake": True}  # whether a number follows, as in sphereflake:4
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="raybound", description="Ray tracing by certified interpolation.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="{render,demo,bench}")
+    _add_render(commands.add_parser("render", help="render a scene to an image file"))
+    demo = commands.add_parser("demo", help="render the museum walk-through and more to a folder")
+    demo.add_argument("--frames", type=int, default=12, help="frames of the walk-through (default 12)")
+    demo.add_argument("--width", type=int, default=600, help="of the walk-through's frames, pixels (default 600)")
+    demo.add_argument("--height", type=int, default=450, help="of the walk-through's frames, pixels (default 450)")
+    demo.add_argument("--out", default="out", help="folder for pictures and statistics (default ./out)")
+    demo.set_defaults(run=_demo)
+    bench = commands.add_parser("bench", help="measure speed")
+    bench.add_argument("what", nargs="?", choices=["base"], default="base", help="base: the base tracer")
+    bench.add_argument("--width", type=int, default=1200, help="pixels (default 1200)")
+    bench.add_argument("--height", type=int, default=900, help="pixels (default 900)")
+    bench.add_argument("--repeat", type=int, default=5, help="frames to take the median of (default 5)")
+    bench.add_argument("--json", metavar="FILE", help="write the measurements to a file, too")
+    bench.set_defaults(run=_bench)
+    return parser
+
+
+def _add_render(render: argparse.ArgumentParser) -> None:
+    render.add_argument("scene", metavar="SCENE", help="a .json file, museum, three_spheres, or sphereflake:LEVELS")
+    render.add_argument("-o", "--out", metavar="OUT", required=True, help="the image file, such as a.png or a.exr")
+    render.add_argument("--camera", help="a JSON object with Camera's arguments, or ex,ey,ez,tx,ty,tz")
+    render.add_argument("--tolerance", type=_tolerance, default=0.0, help="relative error (default 0), or none")
+    render.add_argument("--width", type=int, help="pixels (default: the camera's)")
+    render.add_argument("--height", type=int, help="pixels (default: the camera's)")
+    render.add_argument("--threads", type=int, default=0, help="0: all cores (default)")
+    render.add_argument("--max-depth", type=int, default=5, help="depth of the ray tree (default 5)")
+    render.add_argument("--method", choices=METHODS, default="auto", help="default auto")
+    render.add_argument("--progress", action="store_true", help="show a progress bar")
+    render.set_defaults(run=_render)
+
+
+def _tolerance(text: str) -> Tolerance | float:
+    return Tolerance(None) if text.lower() == "none" else float(text)
+
+
+def _scene(text: str) -> Scene:
+    """A scene from a .json file or by the name of a ready one."""
+    name, colon, argument = text.partition(":")
+    if name not in READY or Path(text).exists():
+        if not Path(text).exists() and not Path(text).suffix:
+            raise ValueError(f"SCENE must be a .json file or one of {', '.join(READY)}, got {text!r}")
+        return load_scene(text)
+    if bool(colon) != READY[name] or (colon and not argument.isdecimal()):
+        raise ValueError(f"SCENE must be {name + ':LEVELS' if READY[name] else name}, got {text!r}")
+    scene: Scene = getattr(scenes, name)(*([int(argument)] if colon else []))
+    return scene
+
+
+def _camera(text: str, default: Camera | None) -> Camera:
+    """A camera from the command line; what it leaves open is as in the default camera."""
+    if text.lstrip().startswith("{"):
+        try:
+            given: dict[str, Any] = json.loads(text)
+        except json.JSONDecodeError as error:
+            raise ValueError(f"--camera is not JSON: {error}") from None
+    else:
+        try:
+            numbers = [float(item) for item in text.split(",")]
+        except ValueError:
+            numbers = []
+        if len(numbers) != 6:
+            raise ValueError(f"--camera must be a JSON object or ex,ey,ez,tx,ty,tz, got {text!r}")
+        given = {"eye": numbers[:3], "target": numbers[3:]}
+    base = {} if default is None else {name: getattr(default, name) for name in Camera._fields}
+    return camera_from_dict({**base, **given}, "--camera")
+
+
+def _render(options: argparse.Namespace) -> None:
+    images.check_writable(options.out, "--out")
+    scene = _scene(options.scene)
+    camera = scene.camera if options.camera is None else _camera(options.camera, scene.camera)
+    if camera is None:
+        raise ValueError(f"{options.scene} has no camera; give one with --camera")
+    sizes = {"width": options.width, "height": options.height}
+    camera = camera.replace(**{name: value for name, value in sizes.items() if value is not None})
+    renderer = Renderer(
+        scene, options.tolerance, method=options.method, threads=options.threads, max_depth=options.max_depth
+    )
+    with renderer:
+        frame = renderer.render(camera, progress=options.progress)
+    frame.save(options.out)
+    rays = sum(frame.stats["rays"].values())
+    size = f"{camera.width} x {camera.height} pixels"
+    print(f"{options.out}: {size}, {rays} rays, {frame.stats['seconds']:.3f} s, {frame.stats['threads']} threads")
+
+
+def _demo(options: argparse.Namespace) -> None:
+    for line in make_demo(Path(options.out), frames=options.frames, width=options.width, height=options.height):
+        print(line, flush=True)
+
+
+def _bench(options: argparse.Namespace) -> None:
+    from . import bench  # makes scenes
+
+    for name in ("width", "height", "repeat"):
+        if getattr(options, name) < 1:
+            raise ValueError(f"--{name} must be >= 1, got {getattr(options, name)}")
+    result = bench.base(width=options.width, height=options.height, repeat=options.repeat)
+    for line in bench.table(result):
+        print(line)
+    if options.json is not None:
+        Path(options.json).write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs a command; returns the exit code: 0, or 2 for bad input with a message of one line, 130 after Ctrl-C."""
+    options = _parser().parse_args(arguments)
+    try:
+        options.run(options)
+    except (ValueError, TypeError, OSError) as error:
+        message = " ".join(str(error).split())
+        print(f"raybound {options.command}: {message}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    return 0

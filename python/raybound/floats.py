@@ -1,0 +1,103 @@
+"""Float utilities, robust ray origins, and intersections with one shape."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _validate
+from .shapes import Shape
+
+PRECISIONS = ("float32", "float64")
+OFFSETS = ("bounded", "epsilon", "scaled-epsilon")
+
+
+def next_float_up(x: npt.ArrayLike) -> Any:
+    """The next larger float (Physically Based Rendering 3.9.1).
+
+    Scalars or arrays of any shape; float32 (and float16, as float32) gives float32, everything else float64. A scalar
+    gives a scalar. Infinity stays, NaN stays; TypeError for other dtypes than floats and integers.
+    """
+    return _next("next_float_up", x, _core.next_float_up)
+
+
+def next_float_down(x: npt.ArrayLike) -> Any:
+    """The next smaller float; see `next_float_up`."""
+    return _next("next_float_down", x, _core.next_float_down)
+
+
+def _next(who: str, x: npt.ArrayLike, function: Callable[[npt.NDArray[Any]], npt.NDArray[Any]]) -> Any:
+    given = _validate.numeric(who, "x", x, "a number or an array of numbers")
+    kind = np.float32 if given.dtype in (np.float16, np.float32) else np.float64
+    result = function(np.array(given, kind, order="C", ndmin=1)).reshape(given.shape)
+    return float(result) if type(x) in (int, float) else result[()]
+
+
+def gamma(n: npt.ArrayLike, dtype: npt.DTypeLike = np.float32) -> Any:
+    """The bound of `n` roundings, gamma_n = n u / (1 - n u) (Physically Based Rendering 3.9.1), rounded up.
+
+    `n`: an integer >= 0 or an array of them. `dtype`: float32 (u = 2^-24) or float64 (u = 2^-53); of the result as
+    well.
+    """
+    kind = np.dtype(dtype)
+    if kind not in (np.float32, np.float64):
+        raise TypeError(f"gamma: dtype must be float32 or float64, got {kind}")
+    given = _validate.numeric("gamma", "n", n, "an integer or an array of integers")
+    if given.dtype.kind not in "iu":
+        raise TypeError(f"gamma: n must be an integer or an array of integers, got dtype {given.dtype}")
+    counts = [_validate.integer("gamma", "n", item, lowest=0, highest=2**31 - 1) for item in given.flat]
+    return np.array([_core.gamma(count, kind == np.float64) for count in counts], kind).reshape(given.shape)[()]
+
+
+def spawn_origin(p: npt.ArrayLike, p_error: npt.ArrayLike, n: npt.ArrayLike, w: npt.ArrayLike) -> _validate.FloatArray:
+    """Origins of rays that leave a surface without meeting it again (Physically Based Rendering 3.9.5).
+
+    `p`: hit points; `p_error`: bounds of their absolute errors, >= 0; `n`: normals; `w`: directions of the rays. Each
+    is (3,) or (m, 3), all of one shape. Returns the origins in that shape, float32, scene units.
+    """
+    given = {"p": p, "p_error": p_error, "n": n, "w": w}
+    single = np.ndim(_validate.numeric("spawn_origin", "p", p, "an array of numbers")) == 1
+    shape = (3,) if single else (None, 3)
+    arrays = {name: _validate.array("spawn_origin", name, value, shape=shape) for name, value in given.items()}
+    for name, values in arrays.items():
+        if values.shape != arrays["p"].shape:
+            raise ValueError(f"spawn_origin: {name} must have the shape of p, {arrays['p'].shape}, got {values.shape}")
+    if (arrays["p_error"] < 0).any():
+        raise ValueError(f"spawn_origin: p_error must be >= 0, got {arrays['p_error'].min()}")
+    points, errors, normals, ways = (np.atleast_2d(values) for values in arrays.values())
+    result = _core.spawn_origin(points, errors, normals, ways)
+    return result[0] if single else result
+
+
+def intersect(
+    shape: Shape,
+    origins: npt.ArrayLike,
+    directions: npt.ArrayLike,
+    *,
+    precision: str = "float32",
+    offsets: str = "bounded",
+) -> npt.NDArray[np.void]:
+    """Intersects rays with one shape.
+
+    Parameters
+    ----------
+    shape : Shape
+    origins, directions : (n, 3) array_like
+        Scene units, rounded to float32; directions of any length but zero.
+    precision : {"float32", "float64"}
+        In which the intersection is computed.
+    offsets : {"bounded", "epsilon", "scaled-epsilon"}
+        How `next_origin` leaves the surface: by the error bound of the hit point, or by the epsilons that it is
+        measured against.
+
+    Returns a structured array (n,): hit, t, t_error, point, point_error, normal (outward), uv, face_id, next_origin
+    (the origin of a ray spawned along the normal).
+    """
+    checked = _validate.instance("intersect", "shape", shape, Shape, "a Shape")
+    rays = _validate.rays("intersect", origins, directions)
+    _validate.choice("intersect", "precision", precision, PRECISIONS)
+    _validate.choice("intersect", "offsets", offsets, OFFSETS)
+    return _core.intersect_shape(checked._native, *rays, precision, offsets)

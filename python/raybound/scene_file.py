@@ -1,0 +1,293 @@
+"""Scenes as plain JSON: `Scene.to_dict`, `Scene.from_dict`, `load_scene` and `Scene.save`.
+
+    {"format": "raybound scene", "version": 1, "ambient": [r, g, b], "background": [r, g, b], "camera": {"eye": ...} or
+    null,
+     "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat"}, {"texels": {"shape": [h, w, 3], "base64":
+     ...}}], "materials": [{"diffuse": [r, g, b] or number or {"texture": 0}, "specular": ...}], "objects": [{"name":
+     "ball", "shape": {"type": "Sphere", "center": ...}, "material": 0, "transform": [[4 x 4]]}], "lights": [{"name":
+     "lamp", "light": {"type": "PointLight", "position": ...}}]}
+
+Shapes, lights, materials, textures and cameras are objects whose keys are their constructor's arguments; those with a
+default may be left out, and so may names, transforms and every list. Numbers are written with the digits that give the
+same float32. Texels are little-endian float32, linear, top row first.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from . import _validate
+from ._value import Value
+from .camera import Camera
+from .lights import DirectionalLight, Light, PointLight, SpotLight
+from .materials import Material, Texture
+from .scene import Scene
+from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Shape, Sphere, Transformed, Union
+from .transform import Transform
+
+FORMAT, VERSION = "raybound scene", 1
+SHAPES: dict[str, type[Shape]] = {
+    cls.__name__: cls for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Union, Intersection, Transformed)
+}
+LIGHTS: dict[str, type[Light]] = {cls.__name__: cls for cls in (DirectionalLight, PointLight, SpotLight)}
+T = TypeVar("T")
+KEYS = ("format", "version", "ambient", "background", "camera", "textures", "materials", "objects", "lights")
+
+
+# Writing
+
+
+class _Writer:
+    """Numbers the materials and textures of one scene while its objects are written."""
+
+    def __init__(self, folder: str | None) -> None:
+        self.folder = folder
+        self.materials: dict[Material, dict[str, Any]] = {}
+        self.textures: dict[Texture, dict[str, Any]] = {}
+
+    def value(self, value: object) -> Any:
+        """A field's value as plain JSON."""
+        if isinstance(value, Texture):
+            if value not in self.textures:
+                self.textures[value] = self.texture(value)
+            return {"texture": list(self.textures).index(value)}
+        if isinstance(value, Transform):
+            return _plain(value.matrix)
+        if isinstance(value, Shape):
+            return self.typed(value)
+        if isinstance(value, tuple) and value and isinstance(value[0], Shape):
+            return [self.typed(shape) for shape in value]
+        return _plain(value)
+
+    def fields(self, value: Value) -> dict[str, Any]:
+        return {name: self.value(getattr(value, name)) for name in value._fields}
+
+    def typed(self, value: Value) -> dict[str, Any]:
+        return {"type": type(value).__name__, **self.fields(value)}
+
+    def material(self, value: Material, indices: dict[Material, int]) -> int:
+        if value not in self.materials:
+            indices[value] = len(self.materials)
+            self.materials[value] = self.fields(value)
+        return indices[value]
+
+    def texture(self, value: Texture) -> dict[str, Any]:
+        source: dict[str, Any] = {"scale": _plain(value.scale), "wrap": value.wrap}
+        if value._location is not None:
+            return {"path": self.path(value._location), **source}
+        data = base64.b64encode(value.texels.astype("<f4").tobytes()).decode("ascii")
+        return {"texels": {"shape": list(value.texels.shape), "base64": data}, **source}
+
+    def path(self, location: str) -> str:
+        """A texture's path: relative to the file's folder if it lies in there, else absolute."""
+        if self.folder is not None and Path(location).is_relative_to(self.folder):
+            return Path(location).relative_to(self.folder).as_posix()
+        return location
+
+
+def _plain(value: object) -> Any:
+    """Numbers, tuples and arrays as JSON; floats with the fewest digits that give the same float32."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, (tuple, list)):
+        return [_plain(item) for item in value]
+    return float(str(np.float32(value))) if isinstance(value, float) else value
+
+
+def to_dict(scene: Scene, folder: str | None = None) -> dict[str, Any]:
+    """A plain-JSON description of the scene; paths in `folder` become relative to it."""
+    with scene._lock:
+        records = scene._records.copy()
+    writer = _Writer(folder)
+    indices: dict[Material, int] = {}
+    objects = [
+        {
+            "name": record.name,
+            "shape": writer.typed(record.shape),
+            "material": writer.material(record.material, indices),
+            "transform": writer.value(record.transform),
+        }
+        for record in records.objects.values()
+    ]
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "ambient": _plain(records.ambient),
+        "background": _plain(records.background),
+        "camera": None if records.camera is None else writer.fields(records.camera),
+        "textures": list(writer.textures.values()),
+        "materials": list(writer.materials.values()),
+        "objects": objects,
+        "lights": [{"name": r.name, "light": writer.typed(r.light)} for r in records.lights.values()],
+    }
+
+
+def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
+    """Writes a .json file. ValueError for another extension, FileNotFoundError if the folder is missing."""
+    target = _validate.file_path("Scene.save", "path", path)
+    _check_extension("Scene.save", target)
+    text = json.dumps(to_dict(scene, str(Path(target).absolute().parent)), indent=1, allow_nan=False)
+    Path(target).write_text(text + "\n", encoding="utf-8")
+
+
+def _check_extension(who: str, path: str) -> None:
+    if Path(path).suffix.lower() != ".json":
+        raise ValueError(f"{who}: path must end in .json, got {path!r}")
+
+
+# Reading
+
+
+def load_scene(path: str | os.PathLike[str]) -> Scene:
+    """Reads a scene with its camera from a .json file.
+
+    Raises FileNotFoundError if the file (or a texture's) is missing, ValueError for an unknown extension, for text that
+    is not JSON, and for unknown, missing or wrong entries, naming them.
+    """
+    source = _validate.file_path("load_scene", "path", path)
+    _check_extension("load_scene", source)
+    data = Path(source).read_bytes()
+    try:
+        d = json.loads(data)
+    except ValueError as error:  # JSONDecodeError or UnicodeDecodeError
+        raise ValueError(f"load_scene: {source!r} is not JSON: {error}") from None
+    return from_dict(d, folder=str(Path(source).absolute().parent), who=f"load_scene: {source!r}")
+
+
+def from_dict(d: Mapping[str, Any], folder: str | None = None, who: str = "Scene.from_dict") -> Scene:
+    """The scene that `to_dict` described; relative paths of textures start at `folder` (default: the current one)."""
+    _check_keys(who, d, KEYS)
+    if d.get("format", FORMAT) != FORMAT or d.get("version", VERSION) != VERSION:
+        found = f"{d.get('format')!r}, {d.get('version')!r}"
+        raise ValueError(f"{who}: format and version must be {FORMAT!r}, {VERSION}, got {found}")
+    scene = Scene(d.get("ambient", 0.0), d.get("background", 0.0))
+    if d.get("camera") is not None:
+        scene.camera = camera_from_dict(d["camera"], f"{who}: camera")
+    textures = [_texture(item, folder, at) for at, item in _items(who, d, "textures")]
+    materials = [_material(item, textures, at) for at, item in _items(who, d, "materials")]
+    with scene.edit():
+        for at, item in _items(who, d, "objects"):
+            _check_keys(at, item, ("name", "shape", "material", "transform"), required=("shape", "material"))
+            material = _pick(f"{at}.material", item["material"], materials)
+            matrix = item.get("transform")
+            by = None if matrix is None else _make(at, Transform, matrix)
+            _make(at, scene.add, _shape(item["shape"], f"{at}.shape"), material, name=item.get("name"), transform=by)
+        for at, item in _items(who, d, "lights"):
+            _check_keys(at, item, ("name", "light"), required=("light",))
+            _make(at, scene.add_light, _light(item["light"], f"{at}.light"), name=item.get("name"))
+    return scene
+
+
+def camera_from_dict(d: object, who: str) -> Camera:
+    """A camera from its constructor's arguments."""
+    return _make(who, Camera, **_arguments(who, d, Camera))
+
+
+def _make(who: str, maker: Callable[..., T], *positional: Any, **named: Any) -> T:
+    """`maker(...)`, whose errors say where in the description they arose."""
+    try:
+        return maker(*positional, **named)
+    except TypeError as error:
+        raise TypeError(f"{who}: {error}") from None
+    except ValueError as error:
+        raise ValueError(f"{who}: {error}") from None
+
+
+def _items(who: str, d: Mapping[str, Any], key: str) -> list[tuple[str, Any]]:
+    """The entries of a list, each with its place for error messages."""
+    items = d.get(key, [])
+    if not isinstance(items, list):
+        raise TypeError(f"{who}: {key} must be a list, got {_validate.describe(items)}")
+    return [(f"{who}: {key}[{i}]", item) for i, item in enumerate(items)]
+
+
+def _check_keys(who: str, d: object, allowed: tuple[str, ...], required: tuple[str, ...] = ()) -> dict[str, Any]:
+    """`d`, which must be an object with these keys."""
+    if not isinstance(d, Mapping):
+        raise TypeError(f"{who} must be an object with keys {', '.join(allowed)}, got {_validate.describe(d)}")
+    for key in d:
+        if key not in allowed:
+            raise ValueError(f"{who} has the unknown key {key!r} (expected {', '.join(allowed)})")
+    for key in required:
+        if key not in d:
+            raise ValueError(f"{who} lacks the key {key!r}")
+    return dict(d)
+
+
+def _arguments(who: str, d: object, cls: type[Value], extra: tuple[str, ...] = ()) -> dict[str, Any]:
+    """The constructor's arguments for `cls` in `d`, without the keys in `extra`."""
+    required = tuple(name for name in cls._fields if name not in cls._defaults)
+    found = _check_keys(who, d, extra + cls._fields, extra + required)
+    return {key: value for key, value in found.items() if key not in extra}
+
+
+def _class(who: str, d: object, classes: dict[str, type[Any]]) -> type[Any]:
+    """The class that the key "type" names."""
+    kind = d.get("type") if isinstance(d, Mapping) else None
+    if not isinstance(kind, str) or kind not in classes:
+        raise ValueError(
+            f"{who} must be an object whose type is one of {', '.join(classes)}, got {_validate.describe(d)}"
+        )
+    return classes[kind]
+
+
+def _shape(d: object, who: str) -> Shape:
+    cls = _class(who, d, SHAPES)
+    arguments = _arguments(who, d, cls, ("type",))
+    if cls in (Union, Intersection):
+        combined: Shape = _make(who, cls, *(_shape(part, at) for at, part in _items(who, arguments, "shapes")))
+        return combined
+    if cls is Transformed:
+        arguments["shape"] = _shape(arguments["shape"], f"{who}.shape")
+        arguments["transform"] = _make(who, Transform, arguments["transform"])
+    made: Shape = _make(who, cls, **arguments)
+    return made
+
+
+def _light(d: object, who: str) -> Light:
+    cls = _class(who, d, LIGHTS)
+    made: Light = _make(who, cls, **_arguments(who, d, cls, ("type",)))
+    return made
+
+
+def _material(d: object, textures: list[Texture], who: str) -> Material:
+    arguments = _arguments(who, d, Material)
+    diffuse = arguments.get("diffuse")
+    if isinstance(diffuse, Mapping):
+        index = _check_keys(f"{who}.diffuse", diffuse, ("texture",), ("texture",))["texture"]
+        arguments["diffuse"] = _pick(f"{who}.diffuse.texture", index, textures)
+    return _make(who, Material, **arguments)
+
+
+def _texture(d: object, folder: str | None, who: str) -> Texture:
+    found = _check_keys(who, d, ("path", "texels", "scale", "wrap"))
+    if ("path" in found) == ("texels" in found):
+        raise ValueError(f"{who} must have one of the keys 'path' and 'texels'")
+    rest = {key: found[key] for key in ("scale", "wrap") if key in found}
+    if "texels" in found:
+        return _make(who, Texture, _texels(found["texels"], f"{who}.texels"), **rest)
+    path = _validate.file_path(who, "path", found["path"])
+    return _make(who, Texture, path if folder is None else str(Path(folder, path)), **rest)
+
+
+def _texels(d: object, who: str) -> np.ndarray[Any, np.dtype[np.float32]]:
+    found = _check_keys(who, d, ("shape", "base64"), ("shape", "base64"))
+    try:
+        data = np.frombuffer(base64.b64decode(found["base64"], validate=True), "<f4")
+        return data.reshape(found["shape"]).astype(np.float32)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{who} must be float32 texels of that shape in base64: {error}") from None
+
+
+def _pick(who: str, index: object, items: list[Any]) -> Any:
+    """The item that an index refers to."""
+    if not items:
+        raise ValueError(f"{who} refers to an empty list, got {_validate.describe(index)}")
+    return items[_validate.integer(who, "index", index, lowest=0, highest=len(items) - 1)]

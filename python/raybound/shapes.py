@@ -1,0 +1,197 @@
+"""Shapes: immutable values. Their geometry is the core's; here are their names, arguments and printing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _validate
+from ._validate import DoubleArray, FloatArray, Vector, packed
+from ._value import Value
+from .transform import Transform, rounded
+
+
+class Shape(Value):
+    """The base of all shapes: immutable values that can be compared, hashed, printed and pickled."""
+
+    _native: _core.Shape
+
+    @property
+    def bounds(self) -> DoubleArray:
+        """A box that surely contains the shape: (2, 3) float64, lower and upper corner, in scene units."""
+        return self._native.bounds()
+
+    def transformed(self, t: Transform) -> Transformed:
+        """The shape moved by the transform `t`, whose entries are rounded to float32."""
+        return Transformed(self, t)
+
+    def __or__(self, other: object) -> Union:
+        """`a | b` is `Union(a, b)`; ValueError if one of them is not solid."""
+        return Union(self, other) if isinstance(other, Shape) else NotImplemented
+
+    def __and__(self, other: object) -> Intersection:
+        """`a & b` is `Intersection(a, b)`; ValueError if one of them is not solid."""
+        return Intersection(self, other) if isinstance(other, Shape) else NotImplemented
+
+
+class Sphere(Shape):
+    """A solid sphere. `center`: 3 numbers; `radius` > 0; scene units. ValueError, TypeError on bad input."""
+
+    center: Vector
+    radius: float
+
+    def __init__(self, center: npt.ArrayLike = (0.0, 0.0, 0.0), radius: float = 1.0) -> None:
+        self._set(center=_validate.vector("Sphere", "center", center))
+        self._set(radius=_validate.number("Sphere", "radius", radius))
+        self._set(_native=_core.sphere(packed(self.center), self.radius))
+
+
+class Box(Shape):
+    """A solid box along the axes, from corner `min` to corner `max` (3 numbers each, min below max); scene units."""
+
+    min: Vector
+    max: Vector
+
+    def __init__(self, min: npt.ArrayLike = (-1.0, -1.0, -1.0), max: npt.ArrayLike = (1.0, 1.0, 1.0)) -> None:
+        self._set(min=_validate.vector("Box", "min", min), max=_validate.vector("Box", "max", max))
+        self._set(_native=_core.box(packed(self.min), packed(self.max)))
+
+
+class Cylinder(Shape):
+    """A solid cylinder with caps. `base`, `top`: the centres of its caps, different; `radius` > 0; scene units."""
+
+    base: Vector
+    top: Vector
+    radius: float
+
+    def __init__(
+        self, base: npt.ArrayLike = (0.0, 0.0, 0.0), top: npt.ArrayLike = (0.0, 0.0, 1.0), *, radius: float = 1.0
+    ) -> None:
+        self._set(base=_validate.vector("Cylinder", "base", base), top=_validate.vector("Cylinder", "top", top))
+        self._set(radius=_validate.number("Cylinder", "radius", radius))
+        self._set(_native=_core.cylinder(packed(self.base), packed(self.top), self.radius))
+
+
+class Cone(Shape):
+    """A solid cone with caps, truncated if `top_radius` > 0.
+
+    `base`, `apex`: the centres of its ends, different; `radius` > 0 at the base, `top_radius` >= 0 at the apex; scene
+    units.
+    """
+
+    base: Vector
+    apex: Vector
+    radius: float
+    top_radius: float
+
+    def __init__(
+        self,
+        base: npt.ArrayLike = (0.0, 0.0, 0.0),
+        apex: npt.ArrayLike = (0.0, 0.0, 1.0),
+        *,
+        radius: float = 1.0,
+        top_radius: float = 0.0,
+    ) -> None:
+        self._set(base=_validate.vector("Cone", "base", base), apex=_validate.vector("Cone", "apex", apex))
+        self._set(radius=_validate.number("Cone", "radius", radius))
+        self._set(top_radius=_validate.number("Cone", "top_radius", top_radius))
+        self._set(_native=_core.cone(packed(self.base), packed(self.apex), self.radius, self.top_radius))
+
+
+class Disk(Shape):
+    """A flat disk. `normal`: 3 numbers, non-zero, of any length; `radius` > 0; scene units. Not a solid."""
+
+    center: Vector
+    normal: Vector
+    radius: float
+
+    def __init__(
+        self, center: npt.ArrayLike = (0.0, 0.0, 0.0), normal: npt.ArrayLike = (0.0, 0.0, 1.0), *, radius: float = 1.0
+    ) -> None:
+        self._set(center=_validate.vector("Disk", "center", center), normal=_validate.vector("Disk", "normal", normal))
+        self._set(radius=_validate.number("Disk", "radius", radius))
+        self._set(_native=_core.disk(packed(self.center), packed(self.normal), self.radius))
+
+
+class Polygon(Shape):
+    """A convex planar polygon. Not a solid.
+
+    `vertices`: (n, 3) array_like, n >= 3, planar up to the rounding of its vertices to float32, counter-clockwise as
+    seen from outside; scene units. Reading them gives a read-only (n, 3) float32 array. ValueError if not convex or not
+    planar.
+    """
+
+    vertices: FloatArray
+
+    def __init__(self, vertices: npt.ArrayLike) -> None:
+        kept = _validate.array("Polygon", "vertices", vertices, shape=(None, 3))
+        if len(kept) < 3:
+            raise ValueError(f"Polygon: vertices must be at least 3 points, got {len(kept)}")
+        native = _core.polygon(kept)
+        kept.flags.writeable = False
+        self._set(vertices=kept, _native=native)
+
+
+class _Combination(Shape):
+    """What unions and intersections share: a tuple of shapes."""
+
+    shapes: tuple[Shape, ...]
+
+    def _combine(self, shapes: tuple[object, ...]) -> list[_core.Shape]:
+        who = type(self).__name__
+        checked = tuple(_validate.instance(who, f"shape {i}", s, Shape, "a Shape") for i, s in enumerate(shapes))
+        if not checked:
+            raise ValueError(f"{who}: shapes must be one or more, got none")
+        self._set(shapes=checked)
+        return [shape._native for shape in checked]
+
+    def _arguments(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        return self.shapes, {}
+
+    def replace(self, **changes: Any) -> Any:
+        """A copy with other `shapes` (a sequence of shapes)."""
+        unknown = sorted(changes.keys() - {"shapes"})
+        if unknown:
+            raise TypeError(f"{type(self).__name__}.replace: unknown argument {unknown[0]!r} (expected 'shapes')")
+        return type(self)(*changes.get("shapes", self.shapes))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(repr(shape) for shape in self.shapes)})"
+
+
+class Union(_Combination):
+    """The union of solids, itself a solid without inner walls: `Union(a, b, ...)` or `a | b`.
+
+    `shapes` is the tuple of its parts. ValueError if a part is not solid; TypeError if it is not a shape.
+    """
+
+    def __init__(self, *shapes: Shape) -> None:
+        self._set(_native=_core.csg_union(self._combine(shapes)))
+
+
+class Intersection(_Combination):
+    """The intersection of solids, itself a solid: `Intersection(a, b, ...)` or `a & b`.
+
+    `shapes` is the tuple of its parts. ValueError if a part is not solid; TypeError if it is not a shape.
+    """
+
+    def __init__(self, *shapes: Shape) -> None:
+        self._set(_native=_core.csg_intersection(self._combine(shapes)))
+
+
+class Transformed(Shape):
+    """A shape moved by a transform: `shape.transformed(t)`. Fields: `shape`, `transform` (rounded to float32)."""
+
+    shape: Shape
+    transform: Transform
+
+    def __init__(self, shape: Shape, transform: Transform) -> None:
+        inner = _validate.instance("transformed", "shape", shape, Shape, "a Shape")
+        by = _validate.instance("transformed", "t", transform, Transform)
+        by = rounded("transformed", "t", by)
+        self._set(shape=inner, transform=by, _native=_core.transformed(inner._native, np.array(by.matrix)))
+
+    def __repr__(self) -> str:
+        return f"{self.shape!r}.transformed({self.transform!r})"

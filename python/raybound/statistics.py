@@ -1,0 +1,65 @@
+"""Statistics of frames and of renderers: plain dictionaries, JSON-ready."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .enums import Path, Reason
+
+RAYS = ("eye", "shadow", "reflected", "refracted")
+
+
+def zero() -> dict[str, Any]:
+    """Statistics of nothing, with every key."""
+    return {
+        "seconds": 0.0,
+        "seconds_by_phase": {},
+        "threads": 0,
+        "rays": dict.fromkeys(RAYS, 0),
+        "tests": 0,
+        "pixels": {path.name: 0 for path in Path},
+        "reasons": {reason.name: 0 for reason in Reason},
+        "cells": {"made": 0, "valid": 0, "invalid": {}},
+        "bytes": 0,
+        "edits": 0,
+    }
+
+
+def count_pixels(stats: dict[str, Any], path: npt.NDArray[np.uint8], reason: npt.NDArray[np.uint8]) -> None:
+    """Fills in how many pixels took each path, and for each reason."""
+    paths = np.bincount(path.ravel(), minlength=len(Path)).tolist()
+    reasons = np.bincount(reason.ravel(), minlength=len(Reason)).tolist()
+    stats["pixels"] = {item.name: paths[item] for item in Path}
+    stats["reasons"] = {item.name: reasons[item] for item in Reason}
+
+
+def add(total: dict[str, Any], part: Mapping[str, Any]) -> None:
+    """Adds the numbers of `part` to those of `total`, level by level."""
+    for key, value in part.items():
+        if isinstance(value, Mapping):
+            add(total.setdefault(key, {}), value)
+        else:
+            total[key] = total.get(key, 0) + value
+
+
+class Totals:
+    """What a renderer has done so far."""
+
+    def __init__(self) -> None:
+        self._frames = 0
+        self._stats = zero()
+
+    def add_frame(self, stats: Mapping[str, Any]) -> None:
+        """Counts one more frame."""
+        self._frames += 1
+        add(self._stats, stats)
+        self._stats.update(threads=stats["threads"], bytes=stats["bytes"])  # states, not amounts
+
+    def as_dict(self) -> dict[str, Any]:
+        """A copy: the keys of a frame's statistics, added up, and the number of "frames"."""
+        return {"frames": self._frames, **copy.deepcopy(self._stats)}
