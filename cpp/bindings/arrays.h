@@ -54,9 +54,11 @@ py::array_t<T> from_vector(const std::vector<T>& v) {
 
 // A 4x4 matrix; throws in the name of `who` if it is not affine.
 inline Affine to_affine(const std::string& who, const Doubles& m) {
-    if (m.ndim() != 2 || m.shape(0) != 4 || m.shape(1) != 4) throw std::invalid_argument(who + ": matrix must have shape (4, 4)");
+    if (m.ndim() != 2 || m.shape(0) != 4 || m.shape(1) != 4)
+        throw std::invalid_argument(who + ": matrix must have shape (4, 4)");
     const double* e = m.data();
-    if (e[12] != 0 || e[13] != 0 || e[14] != 0 || e[15] != 1) throw std::invalid_argument(who + ": matrix must be affine, its last row must be (0, 0, 0, 1)");
+    if (e[12] != 0 || e[13] != 0 || e[14] != 0 || e[15] != 1)
+        throw std::invalid_argument(who + ": matrix must be affine, its last row must be (0, 0, 0, 1)");
     return {{{e[0], e[1], e[2]}, {e[4], e[5], e[6]}, {e[8], e[9], e[10]}}, {e[3], e[7], e[11]}};
 }
 

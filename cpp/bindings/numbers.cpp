@@ -1,7 +1,7 @@
 #include "bindings/arrays.h"
 #include "raybound/geometry/ray.h"
-#include "raybound/numbers/elementary_check.h"
 #include "raybound/numbers/elementary.h"
+#include "raybound/numbers/elementary_check.h"
 
 namespace raybound::python {
 
@@ -22,18 +22,21 @@ py::array map_float_or_double(const py::array& array, Function f) {
 }
 
 Floats spawn_origins(const Floats& p, const Floats& p_error, const Floats& n, const Floats& w) {
-    const auto points = to_vectors<float>(p), errors = to_vectors<float>(p_error), normals = to_vectors<float>(n), directions = to_vectors<float>(w);
+    const auto points = to_vectors<float>(p), errors = to_vectors<float>(p_error), normals = to_vectors<float>(n),
+               directions = to_vectors<float>(w);
     if (errors.size() != points.size() || normals.size() != points.size() || directions.size() != points.size())
         throw std::invalid_argument("spawn_origin: p, p_error, n and w must have the same shape");
     std::vector<Vec3f> origins;
-    for (std::size_t i = 0; i < points.size(); ++i) origins.push_back(spawn_origin(points[i], errors[i], normals[i], directions[i]));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        origins.push_back(spawn_origin(points[i], errors[i], normals[i], directions[i]));
     return from_vectors(origins);
 }
 
 py::array elementary_values(const std::string& name, const Floats& x, const std::optional<Floats>& y) {
     if (name == "exp") return map<float>(x, [](float v) { return exp(v); });
     if (name == "acos") return map<float>(x, [](float v) { return acos(v); });
-    if (name != "atan2" || !y || y->size() != x.size()) throw std::invalid_argument("elementary: name must be 'exp', 'acos', or 'atan2' with x and y alike");
+    if (name != "atan2" || !y || y->size() != x.size())
+        throw std::invalid_argument("elementary: name must be 'exp', 'acos', or 'atan2' with x and y alike");
     Floats out(std::vector<py::ssize_t>(x.shape(), x.shape() + x.ndim()));
     for (py::ssize_t i = 0; i < x.size(); ++i) out.mutable_data()[i] = atan2(x.data()[i], y->data()[i]);
     return out;
@@ -42,9 +45,15 @@ py::array elementary_values(const std::string& name, const Floats& x, const std:
 }  // namespace
 
 void register_numbers(py::module_& m) {
-    m.def("next_float_up", [](const py::array& a) { return map_float_or_double(a, [](auto x) { return next_float_up(x); }); }, "array"_a);
-    m.def("next_float_down", [](const py::array& a) { return map_float_or_double(a, [](auto x) { return next_float_down(x); }); }, "array"_a);
-    m.def("gamma", [](int n, bool wide) { return wide ? gamma<double>(n) : double(gamma<float>(n)); }, "n"_a, "double"_a);
+    m.def(
+        "next_float_up",
+        [](const py::array& a) { return map_float_or_double(a, [](auto x) { return next_float_up(x); }); }, "array"_a);
+    m.def(
+        "next_float_down",
+        [](const py::array& a) { return map_float_or_double(a, [](auto x) { return next_float_down(x); }); },
+        "array"_a);
+    m.def(
+        "gamma", [](int n, bool wide) { return wide ? gamma<double>(n) : double(gamma<float>(n)); }, "n"_a, "double"_a);
     m.def("spawn_origin", &spawn_origins, "p"_a, "p_error"_a, "n"_a, "w"_a);
     m.def("elementary", &elementary_values, "name"_a, "x"_a, "y"_a = py::none());
     m.def(

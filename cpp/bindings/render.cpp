@@ -8,7 +8,8 @@ namespace {
 
 // A read-only view of a buffer's array that keeps the buffer alive.
 template <class T, class Element>
-py::array_t<T> view(const std::shared_ptr<FrameBuffers>& buffers, std::vector<Element>& data, std::vector<py::ssize_t> shape) {
+py::array_t<T> view(const std::shared_ptr<FrameBuffers>& buffers, std::vector<Element>& data,
+                    std::vector<py::ssize_t> shape) {
     py::array_t<T> array(std::move(shape), reinterpret_cast<const T*>(data.data()), py::cast(buffers));
     array.attr("flags").attr("writeable") = false;
     return array;
@@ -23,22 +24,28 @@ Watch watcher(const py::object& progress) {
     };
 }
 
-py::dict ray_counts(const RayCounts& r) { return py::dict("eye"_a = r.eye, "shadow"_a = r.shadow, "reflected"_a = r.reflected, "refracted"_a = r.refracted); }
+py::dict ray_counts(const RayCounts& r) {
+    return py::dict("eye"_a = r.eye, "shadow"_a = r.shadow, "reflected"_a = r.reflected, "refracted"_a = r.refracted);
+}
 
 RenderSettings settings_of(int max_depth, int threads, int stride) {
     RenderSettings settings;
-    if (max_depth < 1 || threads < 0 || stride < 1) throw std::invalid_argument("render: max_depth and stride must be >= 1, threads >= 0");
+    if (max_depth < 1 || threads < 0 || stride < 1)
+        throw std::invalid_argument("render: max_depth and stride must be >= 1, threads >= 0");
     settings.max_depth = max_depth;
     settings.threads = threads;
     settings.stride = stride;
     return settings;
 }
 
-py::dict render_frame(const std::shared_ptr<Snapshot>& snapshot, const Camera& camera, const std::shared_ptr<FrameBuffers>& buffers, int max_depth,
-                      int threads, int stride, const std::string& precision, bool brute_force, const py::object& progress) {
+py::dict render_frame(const std::shared_ptr<Snapshot>& snapshot, const Camera& camera,
+                      const std::shared_ptr<FrameBuffers>& buffers, int max_depth, int threads, int stride,
+                      const std::string& precision, bool brute_force, const py::object& progress) {
     RenderSettings settings = settings_of(max_depth, threads, stride);
-    if (buffers->width != camera.width() || buffers->height != camera.height()) throw std::invalid_argument("render: buffers must have the camera's size");
-    if (precision != "float32" && precision != "float64") throw std::invalid_argument("render: precision must be 'float32' or 'float64', got '" + precision + "'");
+    if (buffers->width != camera.width() || buffers->height != camera.height())
+        throw std::invalid_argument("render: buffers must have the camera's size");
+    if (precision != "float32" && precision != "float64")
+        throw std::invalid_argument("render: precision must be 'float32' or 'float64', got '" + precision + "'");
     settings.precision = precision == "float64" ? Precision::float64 : Precision::float32;
     settings.acceleration = brute_force ? Acceleration::brute_force : Acceleration::bvh;
     RenderStatistics statistics;
@@ -47,22 +54,27 @@ py::dict render_frame(const std::shared_ptr<Snapshot>& snapshot, const Camera& c
         statistics = render(*snapshot, camera, *buffers, settings, watcher(progress));
     }
     if (!progress.is_none()) progress(1.0);
-    return py::dict("seconds"_a = statistics.seconds, "threads"_a = statistics.threads, "rays"_a = ray_counts(statistics.rays), "tests"_a = 0);
+    return py::dict("seconds"_a = statistics.seconds, "threads"_a = statistics.threads,
+                    "rays"_a = ray_counts(statistics.rays), "tests"_a = 0);
 }
 
-py::dict trace(const std::shared_ptr<Snapshot>& snapshot, const Floats& origins, const Floats& directions, int max_depth, int threads, const py::object& progress) {
+py::dict trace(const std::shared_ptr<Snapshot>& snapshot, const Floats& origins, const Floats& directions,
+               int max_depth, int threads, const py::object& progress) {
     const RenderSettings settings = settings_of(max_depth, threads, 1);
     const auto o = to_vectors<float>(origins), d = to_vectors<float>(directions);
-    if (o.size() != d.size()) throw std::invalid_argument("Renderer.trace: origins and directions must have the same shape");
+    if (o.size() != d.size())
+        throw std::invalid_argument("Renderer.trace: origins and directions must have the same shape");
     TracedRays result;
     {
         const py::gil_scoped_release released;
         result = trace_rays(*snapshot, {o.begin(), o.end()}, {d.begin(), d.end()}, settings, watcher(progress));
     }
     std::vector<std::uint8_t> path;
-    for (const std::int32_t id : result.object_id) path.push_back(std::uint8_t(id < 0 ? Path::background : Path::traced));
-    return py::dict("radiance"_a = from_vectors(result.radiance), "object_id"_a = from_vector(result.object_id), "path"_a = from_vector(path),
-                    "t"_a = from_vector(result.t), "rays"_a = ray_counts(result.statistics.rays));
+    for (const std::int32_t id : result.object_id)
+        path.push_back(std::uint8_t(id < 0 ? Path::background : Path::traced));
+    return py::dict("radiance"_a = from_vectors(result.radiance), "object_id"_a = from_vector(result.object_id),
+                    "path"_a = from_vector(path), "t"_a = from_vector(result.t),
+                    "rays"_a = ray_counts(result.statistics.rays));
 }
 
 py::tuple tuple_of(const Vec3d& v) { return py::make_tuple(v.x, v.y, v.z); }
@@ -72,10 +84,12 @@ py::dict tree_dict(const RayTreeNode& node) {
     static constexpr const char* verdicts[] = {"lit", "blocked", "behind", "outside cone"};
     py::list lights, children;
     for (const RayTreeLight& light : node.lights)
-        lights.append(py::dict("id"_a = light.id, "verdict"_a = verdicts[int(light.verdict)], "blocker"_a = light.blocker));
+        lights.append(
+            py::dict("id"_a = light.id, "verdict"_a = verdicts[int(light.verdict)], "blocker"_a = light.blocker));
     for (const RayTreeNode& child : node.children) children.append(tree_dict(child));
-    return py::dict("kind"_a = kinds[int(node.kind)], "origin"_a = tuple_of(node.origin), "direction"_a = tuple_of(node.direction), "hit"_a = node.hit,
-                    "object_id"_a = node.object, "face_id"_a = node.face, "t"_a = node.t, "point"_a = tuple_of(node.point),
+    return py::dict("kind"_a = kinds[int(node.kind)], "origin"_a = tuple_of(node.origin),
+                    "direction"_a = tuple_of(node.direction), "hit"_a = node.hit, "object_id"_a = node.object,
+                    "face_id"_a = node.face, "t"_a = node.t, "point"_a = tuple_of(node.point),
                     "normal"_a = tuple_of(node.normal), "radiance"_a = tuple_of(node.radiance), "lights"_a = lights,
                     "total_internal_reflection"_a = node.total_internal_reflection, "children"_a = children);
 }
@@ -97,15 +111,22 @@ void register_render(py::module_& m) {
     using Pointer = std::shared_ptr<FrameBuffers>;
     py::class_<FrameBuffers, Pointer>(m, "FrameBuffers", py::is_final())
         .def(py::init<int, int>(), "width"_a, "height"_a)
-        .def_property_readonly("image", [](const Pointer& b) { return view<float>(b, b->image, {b->height, b->width, 3}); })
-        .def_property_readonly("error_bound", [](const Pointer& b) { return view<float>(b, b->error_bound, {b->height, b->width}); })
-        .def_property_readonly("path", [](const Pointer& b) { return view<std::uint8_t>(b, b->path, {b->height, b->width}); })
-        .def_property_readonly("reason", [](const Pointer& b) { return view<std::uint8_t>(b, b->reason, {b->height, b->width}); })
-        .def_property_readonly("object_id", [](const Pointer& b) { return view<std::int32_t>(b, b->object_id, {b->height, b->width}); })
-        .def_property_readonly("depth", [](const Pointer& b) { return view<float>(b, b->depth, {b->height, b->width}); });
-    m.def("render", &render_frame, "snapshot"_a, "camera"_a, "buffers"_a, py::kw_only(), "max_depth"_a, "threads"_a, "stride"_a, "precision"_a,
-          "brute_force"_a, "progress"_a);
-    m.def("trace", &trace, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "max_depth"_a, "threads"_a, "progress"_a);
+        .def_property_readonly("image",
+                               [](const Pointer& b) { return view<float>(b, b->image, {b->height, b->width, 3}); })
+        .def_property_readonly("error_bound",
+                               [](const Pointer& b) { return view<float>(b, b->error_bound, {b->height, b->width}); })
+        .def_property_readonly("path",
+                               [](const Pointer& b) { return view<std::uint8_t>(b, b->path, {b->height, b->width}); })
+        .def_property_readonly("reason",
+                               [](const Pointer& b) { return view<std::uint8_t>(b, b->reason, {b->height, b->width}); })
+        .def_property_readonly(
+            "object_id", [](const Pointer& b) { return view<std::int32_t>(b, b->object_id, {b->height, b->width}); })
+        .def_property_readonly("depth",
+                               [](const Pointer& b) { return view<float>(b, b->depth, {b->height, b->width}); });
+    m.def("render", &render_frame, "snapshot"_a, "camera"_a, "buffers"_a, py::kw_only(), "max_depth"_a, "threads"_a,
+          "stride"_a, "precision"_a, "brute_force"_a, "progress"_a);
+    m.def("trace", &trace, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "max_depth"_a, "threads"_a,
+          "progress"_a);
     m.def("explain", &explain, "snapshot"_a, "camera"_a, "x"_a, "y"_a, "max_depth"_a);
 }
 

@@ -8,7 +8,8 @@ namespace {
 
 py::array_t<HitRecord> intersect(const Snapshot& scene, const Floats& origins, const Floats& directions) {
     const auto o = to_vectors<float>(origins), d = to_vectors<float>(directions);
-    if (o.size() != d.size()) throw std::invalid_argument("Scene.intersect: origins and directions must have the same shape");
+    if (o.size() != d.size())
+        throw std::invalid_argument("Scene.intersect: origins and directions must have the same shape");
     std::vector<HitRecord> records;
     {
         const py::gil_scoped_release released;
@@ -19,7 +20,8 @@ py::array_t<HitRecord> intersect(const Snapshot& scene, const Floats& origins, c
 
 py::array_t<bool> occluded_array(const Snapshot& scene, const Floats& origins, const Floats& targets) {
     const auto o = to_vectors<float>(origins), t = to_vectors<float>(targets);
-    if (o.size() != t.size()) throw std::invalid_argument("Scene.occluded: origins and targets must have the same shape");
+    if (o.size() != t.size())
+        throw std::invalid_argument("Scene.occluded: origins and targets must have the same shape");
     std::vector<std::uint8_t> blocked;
     {
         const py::gil_scoped_release released;
@@ -35,7 +37,9 @@ void register_document(py::module_& m) {
     using MaterialArgument = std::shared_ptr<Material>;
     using LightArgument = std::shared_ptr<Light>;
     py::class_<Document, std::shared_ptr<Document>>(m, "Document", py::is_final())
-        .def(py::init([](const Floats& ambient, const Floats& background) { return std::make_shared<Document>(to_vec3<float>(ambient), to_vec3<float>(background)); }),
+        .def(py::init([](const Floats& ambient, const Floats& background) {
+                 return std::make_shared<Document>(to_vec3<float>(ambient), to_vec3<float>(background));
+             }),
              "ambient"_a, "background"_a)
         .def(
             "add_object",
@@ -45,21 +49,28 @@ void register_document(py::module_& m) {
             "shape"_a, "material"_a, "matrix"_a)
         .def(
             "set_object",
-            [](Document& d, int id, const ShapeArgument& shape, const MaterialArgument& material, const Doubles& matrix) {
-                d.set_object(id, shape, material, to_affine("Object: transform", matrix));
-            },
+            [](Document& d, int id, const ShapeArgument& shape, const MaterialArgument& material,
+               const Doubles& matrix) { d.set_object(id, shape, material, to_affine("Object: transform", matrix)); },
             "id"_a, "shape"_a, "material"_a, "matrix"_a)
         .def("remove_object", &Document::remove_object, "id"_a)
-        .def("add_light", [](Document& d, const LightArgument& light) { return d.add_light(light); }, "light"_a)
-        .def("set_light", [](Document& d, int id, const LightArgument& light) { d.set_light(id, light); }, "id"_a, "light"_a)
+        .def(
+            "add_light", [](Document& d, const LightArgument& light) { return d.add_light(light); }, "light"_a)
+        .def(
+            "set_light", [](Document& d, int id, const LightArgument& light) { d.set_light(id, light); }, "id"_a,
+            "light"_a)
         .def("remove_light", &Document::remove_light, "id"_a)
-        .def("set_ambient", [](Document& d, const Floats& ambient) { d.set_ambient(to_vec3<float>(ambient)); }, "ambient"_a)
-        .def("set_background", [](Document& d, const Floats& background) { d.set_background(to_vec3<float>(background)); }, "background"_a)
+        .def(
+            "set_ambient", [](Document& d, const Floats& ambient) { d.set_ambient(to_vec3<float>(ambient)); },
+            "ambient"_a)
+        .def(
+            "set_background",
+            [](Document& d, const Floats& background) { d.set_background(to_vec3<float>(background)); }, "background"_a)
         .def("begin_edit", &Document::begin_edit)
         .def("commit_edit", &Document::commit_edit)
         .def("rollback_edit", &Document::rollback_edit)
         .def_property_readonly("revision", &Document::revision)
-        .def("object_bounds", [](const Document& d, int id) { return from_bounds(d.object_bounds(id)); }, "id"_a)
+        .def(
+            "object_bounds", [](const Document& d, int id) { return from_bounds(d.object_bounds(id)); }, "id"_a)
         .def("bounds",
              [](const Document& d) -> py::object {
                  const auto box = d.bounds();

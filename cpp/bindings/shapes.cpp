@@ -14,11 +14,12 @@ Offsets offsets_named(const std::string& name) {
     if (name == "bounded") return Offsets::bounded;
     if (name == "epsilon") return Offsets::epsilon;
     if (name == "scaled-epsilon") return Offsets::scaled_epsilon;
-    throw std::invalid_argument("intersect: offsets must be 'bounded', 'epsilon' or 'scaled-epsilon', got '" + name + "'");
+    throw std::invalid_argument("intersect: offsets must be 'bounded', 'epsilon' or 'scaled-epsilon', got '" + name +
+                                "'");
 }
 
-py::array_t<ShapeHitRecord> intersect(const ShapePointer& shape, const Doubles& origins, const Doubles& directions, const std::string& precision,
-                                      const std::string& offsets) {
+py::array_t<ShapeHitRecord> intersect(const ShapePointer& shape, const Doubles& origins, const Doubles& directions,
+                                      const std::string& precision, const std::string& offsets) {
     if (precision != "float32" && precision != "float64")
         throw std::invalid_argument("intersect: precision must be 'float32' or 'float64', got '" + precision + "'");
     const std::vector<Vec3d> o = doubles(origins), d = doubles(directions);
@@ -27,7 +28,8 @@ py::array_t<ShapeHitRecord> intersect(const ShapePointer& shape, const Doubles& 
     std::vector<ShapeHitRecord> records;
     {
         const py::gil_scoped_release released;
-        records = precision == "float32" ? intersect_shape<float>(*shape, o, d, policy) : intersect_shape<double>(*shape, o, d, policy);
+        records = precision == "float32" ? intersect_shape<float>(*shape, o, d, policy)
+                                         : intersect_shape<double>(*shape, o, d, policy);
     }
     return from_vector(records);
 }
@@ -43,12 +45,24 @@ void register_shapes(py::module_& m) {
         .def_property_readonly("face_count", &Shape::face_count)
         .def_property_readonly("primitive_count", &Shape::primitive_count);
 
-    const auto result = [](ShapePointer p) { return std::const_pointer_cast<Shape>(p); };  // pybind11 holds no pointers to const
-    m.def("sphere", [=](const Floats& center, float radius) { return result(Shape::sphere(to_vec3<float>(center), radius)); }, "center"_a, "radius"_a);
-    m.def("box", [=](const Floats& lower, const Floats& upper) { return result(Shape::box(to_vec3<float>(lower), to_vec3<float>(upper))); }, "min"_a, "max"_a);
+    const auto result = [](ShapePointer p) {
+        return std::const_pointer_cast<Shape>(p);
+    };  // pybind11 holds no pointers to const
+    m.def(
+        "sphere",
+        [=](const Floats& center, float radius) { return result(Shape::sphere(to_vec3<float>(center), radius)); },
+        "center"_a, "radius"_a);
+    m.def(
+        "box",
+        [=](const Floats& lower, const Floats& upper) {
+            return result(Shape::box(to_vec3<float>(lower), to_vec3<float>(upper)));
+        },
+        "min"_a, "max"_a);
     m.def(
         "cylinder",
-        [=](const Floats& base, const Floats& top, float radius) { return result(Shape::cylinder(to_vec3<float>(base), to_vec3<float>(top), radius)); },
+        [=](const Floats& base, const Floats& top, float radius) {
+            return result(Shape::cylinder(to_vec3<float>(base), to_vec3<float>(top), radius));
+        },
         "base"_a, "top"_a, "radius"_a);
     m.def(
         "cone",
@@ -58,7 +72,9 @@ void register_shapes(py::module_& m) {
         "base"_a, "apex"_a, "radius"_a, "top_radius"_a);
     m.def(
         "disk",
-        [=](const Floats& center, const Floats& normal, float radius) { return result(Shape::disk(to_vec3<float>(center), to_vec3<float>(normal), radius)); },
+        [=](const Floats& center, const Floats& normal, float radius) {
+            return result(Shape::disk(to_vec3<float>(center), to_vec3<float>(normal), radius));
+        },
         "center"_a, "normal"_a, "radius"_a);
     m.def(
         "polygon",
@@ -68,19 +84,24 @@ void register_shapes(py::module_& m) {
         },
         "vertices"_a);
     using Parts = std::vector<std::shared_ptr<Shape>>;
-    m.def("csg_union", [=](const Parts& p) { return result(Shape::combine(ShapeKind::csg_union, {p.begin(), p.end()})); }, "shapes"_a);
-    m.def("csg_intersection", [=](const Parts& p) { return result(Shape::combine(ShapeKind::csg_intersection, {p.begin(), p.end()})); }, "shapes"_a);
+    m.def(
+        "csg_union", [=](const Parts& p) { return result(Shape::combine(ShapeKind::csg_union, {p.begin(), p.end()})); },
+        "shapes"_a);
+    m.def(
+        "csg_intersection",
+        [=](const Parts& p) { return result(Shape::combine(ShapeKind::csg_intersection, {p.begin(), p.end()})); },
+        "shapes"_a);
     m.def(
         "transformed",
         [=](const std::shared_ptr<Shape>& shape, const Doubles& matrix) {
-            return result(Shape::transformed(shape, checked_transform("Shape.transformed", to_affine("Shape.transformed", matrix))));
+            return result(Shape::transformed(
+                shape, checked_transform("Shape.transformed", to_affine("Shape.transformed", matrix))));
         },
         "shape"_a, "matrix"_a);
     m.def(
         "intersect_shape",
-        [](const std::shared_ptr<Shape>& shape, const Doubles& o, const Doubles& d, const std::string& precision, const std::string& offsets) {
-            return intersect(shape, o, d, precision, offsets);
-        },
+        [](const std::shared_ptr<Shape>& shape, const Doubles& o, const Doubles& d, const std::string& precision,
+           const std::string& offsets) { return intersect(shape, o, d, precision, offsets); },
         "shape"_a, "origins"_a, "directions"_a, "precision"_a, "offsets"_a);
 }
 

@@ -11,7 +11,17 @@ namespace raybound {
 
 enum class Path : std::uint8_t { traced, partial, exact, interpolated, reprojected, extrapolated, background };
 enum class Reason : std::uint8_t {
-    none, silhouette, occluder, shadow, self_shadow, reflection, refraction, tir, error_bound, cost, unsupported
+    none,
+    silhouette,
+    occluder,
+    shadow,
+    self_shadow,
+    reflection,
+    refraction,
+    tir,
+    error_bound,
+    cost,
+    unsupported
 };
 
 // A pixel that has not been computed has an infinite error bound.

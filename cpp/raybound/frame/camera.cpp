@@ -29,13 +29,16 @@ Camera::Camera(const Vec3f& eye, const Vec3f& target, const Vec3f& up, float fov
     require_finite("Camera", "target", target);
     require_finite("Camera", "up", up);
     const auto refuse = [](const std::string& message) { throw std::invalid_argument("Camera: " + message); };
-    if (!(length(Vec3d(target) - Vec3d(eye)) >= double(least_size))) refuse("target must differ from eye, got " + format(eye) + " twice");
+    if (!(length(Vec3d(target) - Vec3d(eye)) >= double(least_size)))
+        refuse("target must differ from eye, got " + format(eye) + " twice");
     if (!(length(Vec3d(up)) >= double(least_size))) refuse("up must not be zero, got " + format(up));
     const double sine = length(cross(normalize(Vec3d(target) - Vec3d(eye)), normalize(Vec3d(up))));
     if (!(sine > 1e-6)) refuse("up must not be parallel to the view, got up " + format(up));
     if (!(fov >= 1e-3f && fov <= 179.9f)) refuse("fov must be within 0.001 and 179.9 degrees, got " + format(fov));
     for (const int size : {width, height})
-        if (size < 1 || size > 65536) refuse("width and height must be within 1 and 65536, got " + std::to_string(width) + "x" + std::to_string(height));
+        if (size < 1 || size > 65536)
+            refuse("width and height must be within 1 and 65536, got " + std::to_string(width) + "x" +
+                   std::to_string(height));
     const Basis b = basis(eye, target, up);
     forward_ = Vec3f(b.forward);
     right_ = Vec3f(b.right);
@@ -47,12 +50,15 @@ Camera::Camera(const Vec3f& eye, const Vec3f& target, const Vec3f& up, float fov
     step_y_ = float(2 * half_height / height);
 }
 
-Camera Camera::moved(const Vec3d& eye, const Vec3d& target) const { return {Vec3f(eye), Vec3f(target), up_, fov_, width_, height_}; }
+Camera Camera::moved(const Vec3d& eye, const Vec3d& target) const {
+    return {Vec3f(eye), Vec3f(target), up_, fov_, width_, height_};
+}
 
 Camera Camera::orbit(double azimuth, double elevation) const {
     const Basis b = basis(eye_, target_, up_);
     const Vec3d arm = Vec3d(eye_) - Vec3d(target_);
-    return moved(Vec3d(target_) + rotated(rotated(arm, b.right, -elevation), normalize(Vec3d(up_)), azimuth), Vec3d(target_));
+    return moved(Vec3d(target_) + rotated(rotated(arm, b.right, -elevation), normalize(Vec3d(up_)), azimuth),
+                 Vec3d(target_));
 }
 
 Camera Camera::dolly(double distance) const {

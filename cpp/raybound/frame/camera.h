@@ -27,9 +27,9 @@ class Camera {
     }
 
     Camera orbit(double azimuth, double elevation) const;  // around the target; degrees
-    Camera dolly(double distance) const;                    // toward the target; scene units
-    Camera pan(double right, double up) const;              // sideways, eye and target alike
-    Camera look(double yaw, double pitch) const;            // turn in place; degrees, yaw to the left, pitch upward
+    Camera dolly(double distance) const;                   // toward the target; scene units
+    Camera pan(double right, double up) const;             // sideways, eye and target alike
+    Camera look(double yaw, double pitch) const;           // turn in place; degrees, yaw to the left, pitch upward
 
   private:
     Camera moved(const Vec3d& eye, const Vec3d& target) const;

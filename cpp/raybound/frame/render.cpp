@@ -19,11 +19,14 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// A pixel whose trace was cut short by a cancellation is not stored.
 template <class T>
-void trace_pixel(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, int x, int y) {
+void trace_pixel(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, int x, int y,
+                 const std::atomic<bool>& cancelled) {
     const std::size_t at = buffers.index(x, y);
     if (buffers.error_bound[at] == 0) return;
     const EyeSample<T> sample = tracer.sample(Vec3<T>(camera.eye()), Vec3<T>(camera.direction<float>(x, y)));
+    if (cancelled) return;
     buffers.image[at] = Vec3f(sample.radiance);
     buffers.path[at] = std::uint8_t(sample.object < 0 ? Path::background : Path::traced);
     buffers.object_id[at] = sample.object;
@@ -47,7 +50,10 @@ struct Tile {
 class Tiling {
   public:
     Tiling(const FrameBuffers& buffers, int stride)
-        : side_((tile_size + stride - 1) / stride * stride), width_(buffers.width), height_(buffers.height), columns_((width_ + side_ - 1) / side_) {}
+        : side_((tile_size + stride - 1) / stride * stride),
+          width_(buffers.width),
+          height_(buffers.height),
+          columns_((width_ + side_ - 1) / side_) {}
 
     int count() const { return columns_ * ((height_ + side_ - 1) / side_); }
     Tile tile(int item) const {
@@ -60,25 +66,24 @@ class Tiling {
 };
 
 template <class T>
-void render_tile(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, const Tile& tile, int stride, const std::atomic<bool>& cancelled) {
+void render_tile(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, const Tile& tile, int stride,
+                 const std::atomic<bool>& cancelled) {
     for (int y = tile.y0; y < tile.y1; y += stride)
         for (int x = tile.x0; x < tile.x1; x += stride) {
+            trace_pixel(tracer, camera, buffers, x, y, cancelled);
+            if (cancelled) return;
             const std::size_t at = buffers.index(x, y);
-            const float before = buffers.error_bound[at];
-            trace_pixel(tracer, camera, buffers, x, y);
-            if (cancelled) {  // the pixel may have been cut short
-                buffers.error_bound[at] = before;
-                return;
-            }
             for (int j = y; j < std::min(y + stride, tile.y1); ++j)
                 for (int i = x; i < std::min(x + stride, tile.x1); ++i) copy_pixel(buffers, at, buffers.index(i, j));
         }
 }
 
 template <class T>
-std::vector<Tracer<T>> make_tracers(const Snapshot& scene, const RenderSettings& settings, const std::atomic<bool>& cancelled) {
+std::vector<Tracer<T>> make_tracers(const Snapshot& scene, const RenderSettings& settings,
+                                    const std::atomic<bool>& cancelled) {
     const TraceSettings trace{settings.max_depth, settings.acceleration, &cancelled};
-    return std::vector<Tracer<T>>(std::size_t(settings.threads > 0 ? settings.threads : hardware_threads()), Tracer<T>(scene, trace));
+    return std::vector<Tracer<T>>(std::size_t(settings.threads > 0 ? settings.threads : hardware_threads()),
+                                  Tracer<T>(scene, trace));
 }
 
 template <class T>
@@ -89,7 +94,8 @@ RayCounts total(const std::vector<Tracer<T>>& tracers) {
 }
 
 template <class T>
-RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, const RenderSettings& settings, const Watch& watch) {
+RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers,
+                             const RenderSettings& settings, const Watch& watch) {
     std::atomic<bool> cancelled = false;
     auto tracers = make_tracers<T>(scene, settings, cancelled);
     const Tiling tiling(buffers, settings.stride);
@@ -97,7 +103,10 @@ RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameB
     RenderStatistics statistics;
     statistics.threads = run_work(
         tiling.count(), settings.threads, cancelled,
-        [&](int item, int worker) { render_tile(tracers[std::size_t(worker)], camera, buffers, tiling.tile(item), settings.stride, cancelled); }, watch);
+        [&](int item, int worker) {
+            render_tile(tracers[std::size_t(worker)], camera, buffers, tiling.tile(item), settings.stride, cancelled);
+        },
+        watch);
     statistics.seconds = watch_time.seconds();
     statistics.rays = total(tracers);
     return statistics;
@@ -105,7 +114,8 @@ RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameB
 
 }  // namespace
 
-RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, const RenderSettings& settings, const Watch& watch) {
+RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers,
+                        const RenderSettings& settings, const Watch& watch) {
     if (settings.precision == Precision::float64) return render_with<double>(scene, camera, buffers, settings, watch);
     return render_with<float>(scene, camera, buffers, settings, watch);
 }
@@ -113,10 +123,15 @@ RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffer
 TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, std::vector<Vec3f> directions,
                       const RenderSettings& settings, const Watch& watch) {
     for (std::size_t i = 0; i < directions.size(); ++i)
-        if (!unit_direction(directions[i])) throw std::invalid_argument("Renderer.trace: directions must not be zero, direction " + std::to_string(i) + " is");
+        if (!unit_direction(directions[i]))
+            throw std::invalid_argument("Renderer.trace: directions must not be zero, direction " + std::to_string(i) +
+                                        " is");
     constexpr int chunk = 256;
     const int count = int(origins.size());
-    TracedRays result{std::vector<Vec3f>(origins.size()), std::vector<std::int32_t>(origins.size()), std::vector<float>(origins.size()), {}};
+    TracedRays result{std::vector<Vec3f>(origins.size()),
+                      std::vector<std::int32_t>(origins.size()),
+                      std::vector<float>(origins.size()),
+                      {}};
     std::atomic<bool> cancelled = false;
     auto tracers = make_tracers<float>(scene, settings, cancelled);
     const auto work = [&](int item, int worker) {

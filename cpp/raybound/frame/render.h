@@ -27,9 +27,11 @@ struct RenderStatistics {
 // Traces the pixels whose coordinates are multiples of the stride and whose bound is not yet 0. With a stride above 1
 // the others of each block take its corner's colour, marked as extrapolated. With double precision the same float rays
 // are traced by the double kernels, for comparison.
-RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, const RenderSettings& settings, const Watch& watch);
+RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers,
+                        const RenderSettings& settings, const Watch& watch);
 
-// Any rays, by the same tracer. Directions are made unit vectors in float first (throws std::invalid_argument for zero).
+// Any rays, by the same tracer. Directions are made unit vectors in float first (throws std::invalid_argument for
+// zero).
 struct TracedRays {
     std::vector<Vec3f> radiance;
     std::vector<std::int32_t> object_id;

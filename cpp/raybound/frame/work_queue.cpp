@@ -21,7 +21,8 @@ struct Shared {
     std::exception_ptr error;
 };
 
-void drain(Shared& shared, int items, int worker, std::atomic<bool>& cancelled, const std::function<void(int, int)>& work) {
+void drain(Shared& shared, int items, int worker, std::atomic<bool>& cancelled,
+           const std::function<void(int, int)>& work) {
     try {
         for (int item = shared.next++; item < items && !cancelled; item = shared.next++) {
             work(item, worker);
@@ -40,7 +41,8 @@ void drain(Shared& shared, int items, int worker, std::atomic<bool>& cancelled, 
 
 int hardware_threads() { return std::max(1, int(std::thread::hardware_concurrency())); }
 
-int run_work(int items, int threads, std::atomic<bool>& cancelled, const std::function<void(int, int)>& work, const Watch& watch) {
+int run_work(int items, int threads, std::atomic<bool>& cancelled, const std::function<void(int, int)>& work,
+             const Watch& watch) {
     const int count = std::max(1, std::min(threads > 0 ? threads : hardware_threads(), items));
     Shared shared;
     shared.running = count;

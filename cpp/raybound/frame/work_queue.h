@@ -6,13 +6,14 @@
 
 namespace raybound {
 
-// How the thread that waits looks after the work: called every few milliseconds with the fraction done; may throw, which
-// cancels the work and is passed on.
+// How the thread that waits looks after the work: called every few milliseconds with the fraction done; may throw,
+// which cancels the work and is passed on.
 using Watch = std::function<void(double)>;
 
 // Runs work(item, worker) for every item in [0, items), on `threads` threads (0: all cores). Items are handed out in
 // order, one at a time; results must not depend on who computes what. Returns the number of threads.
-int run_work(int items, int threads, std::atomic<bool>& cancelled, const std::function<void(int, int)>& work, const Watch& watch);
+int run_work(int items, int threads, std::atomic<bool>& cancelled, const std::function<void(int, int)>& work,
+             const Watch& watch);
 
 int hardware_threads();
 

@@ -32,13 +32,16 @@ struct Bounds {
 using Box = Bounds<float>;
 using Boxd = Bounds<double>;
 
-inline Boxd intersection(const Boxd& a, const Boxd& b) { return {maximum(a.lower, b.lower), minimum(a.upper, b.upper)}; }
+inline Boxd intersection(const Boxd& a, const Boxd& b) {
+    return {maximum(a.lower, b.lower), minimum(a.upper, b.upper)};
+}
 
 // The least box of floats around a box of doubles.
 inline Box round_outward(const Boxd& box) {
     const auto down = [](double x) { return double(float(x)) > x ? next_float_down(float(x)) : float(x); };
     const auto up = [](double x) { return double(float(x)) < x ? next_float_up(float(x)) : float(x); };
-    return {{down(box.lower.x), down(box.lower.y), down(box.lower.z)}, {up(box.upper.x), up(box.upper.y), up(box.upper.z)}};
+    return {{down(box.lower.x), down(box.lower.y), down(box.lower.z)},
+            {up(box.upper.x), up(box.upper.y), up(box.upper.z)}};
 }
 
 // How much a slab's exit is pushed out: entry and exit each carry three roundings (difference, reciprocal, product),
@@ -46,8 +49,8 @@ inline Box round_outward(const Boxd& box) {
 template <class T>
 inline constexpr T slab_widening = T(1) + 2 * gamma<T>(4);
 
-// Where the ray is inside a box, for one box (V = T) or four at once. A zero direction component on a slab's plane gives
-// 0 * infinity = NaN, which `maximum` and `minimum` ignore: a box that is touched is never rejected.
+// Where the ray is inside a box, for one box (V = T) or four at once. A zero direction component on a slab's plane
+// gives 0 * infinity = NaN, which `maximum` and `minimum` ignore: a box that is touched is never rejected.
 //
 // The interval is monotone, since every rounding is: computed numbers too enter a box no earlier than a box around it.
 template <class V>

@@ -13,7 +13,9 @@ inline Vec3d rotated(const Vec3d& v, const Vec3d& k, double degrees) {
 }
 
 inline Affine rotation(const Vec3d& k, double degrees) {
-    return {from_columns(rotated({1, 0, 0}, k, degrees), rotated({0, 1, 0}, k, degrees), rotated({0, 0, 1}, k, degrees)), {}};
+    return {
+        from_columns(rotated({1, 0, 0}, k, degrees), rotated({0, 1, 0}, k, degrees), rotated({0, 0, 1}, k, degrees)),
+        {}};
 }
 
 }  // namespace raybound

@@ -14,7 +14,8 @@ struct Vec3 {
     constexpr Vec3() = default;
     constexpr Vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
     template <class S>
-    constexpr explicit Vec3(const Vec3<S>& v) : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+    constexpr explicit Vec3(const Vec3<S>& v)
+        : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
 
     constexpr T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
     constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }

@@ -38,10 +38,14 @@ ElementaryError sweep(std::uint32_t first, std::uint64_t count, std::uint32_t st
 
 }  // namespace
 
-ElementaryError check_elementary(const std::string& name, std::uint32_t first, std::uint64_t count, std::uint32_t stride) {
-    if (name == "exp") return sweep(first, count, stride, [](float x) { return exp(x); }, [](double x) { return std::exp(x); });
-    if (name == "acos") return sweep(first, count, stride, [](float x) { return acos(x); }, [](double x) { return std::acos(x); });
-    if (name == "sqrt") return sweep(first, count, stride, [](float x) { return sqrt(x); }, [](double x) { return std::sqrt(x); });
+ElementaryError check_elementary(const std::string& name, std::uint32_t first, std::uint64_t count,
+                                 std::uint32_t stride) {
+    if (name == "exp")
+        return sweep(first, count, stride, [](float x) { return exp(x); }, [](double x) { return std::exp(x); });
+    if (name == "acos")
+        return sweep(first, count, stride, [](float x) { return acos(x); }, [](double x) { return std::acos(x); });
+    if (name == "sqrt")
+        return sweep(first, count, stride, [](float x) { return sqrt(x); }, [](double x) { return std::sqrt(x); });
     throw std::invalid_argument("check_elementary: name must be 'exp', 'acos' or 'sqrt', got '" + name + "'");
 }
 

@@ -15,6 +15,7 @@ struct ElementaryError {
 // Runs "exp", "acos" or "sqrt" over the floats with the bit patterns first, first + stride, ... (count of them) and
 // compares with the C library's double, whose own error is 2^-29 float ulp. Special values must match exactly: a wrong
 // one counts as an infinite error. Throws std::invalid_argument for other names.
-ElementaryError check_elementary(const std::string& name, std::uint32_t first, std::uint64_t count, std::uint32_t stride);
+ElementaryError check_elementary(const std::string& name, std::uint32_t first, std::uint64_t count,
+                                 std::uint32_t stride);
 
 }  // namespace raybound

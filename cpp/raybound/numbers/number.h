@@ -71,7 +71,7 @@ template <class T>
 concept Number = requires(T a, Mask<T> m) {
     { a + a } -> std::convertible_to<T>;
     { a - a } -> std::convertible_to<T>;
-    { a* a } -> std::convertible_to<T>;
+    { a * a } -> std::convertible_to<T>;
     { a / a } -> std::convertible_to<T>;
     { a < a } -> std::convertible_to<Mask<T>>;
     { sqrt(a) } -> std::convertible_to<T>;

@@ -20,7 +20,8 @@ struct Range {
 
 class Builder {
   public:
-    Builder(std::span<const Box> boxes, std::vector<BvhNode>& nodes) : boxes_(boxes), nodes_(nodes), order_(boxes.size()) {
+    Builder(std::span<const Box> boxes, std::vector<BvhNode>& nodes)
+        : boxes_(boxes), nodes_(nodes), order_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0u);
         for (const Box& box : boxes) centers_.push_back(box.center());
     }
@@ -44,7 +45,8 @@ class Builder {
         while (parts.size() < 4) {
             auto widest = parts.end();
             for (auto it = parts.begin(); it != parts.end(); ++it)
-                if (it->size() > 1 && (widest == parts.end() || it->bounds.half_area() > widest->bounds.half_area())) widest = it;
+                if (it->size() > 1 && (widest == parts.end() || it->bounds.half_area() > widest->bounds.half_area()))
+                    widest = it;
             if (widest == parts.end()) break;
             const auto [left, right] = split(*widest);
             *widest = left;
@@ -53,7 +55,8 @@ class Builder {
         const auto index = std::uint32_t(nodes_.size());
         nodes_.push_back(empty_node());
         for (std::size_t k = 0; k < parts.size(); ++k) {
-            const std::uint32_t child = parts[k].size() == 1 ? order_[parts[k].begin] | Bvh::primitive_bit : build_node(parts[k]);
+            const std::uint32_t child =
+                parts[k].size() == 1 ? order_[parts[k].begin] | Bvh::primitive_bit : build_node(parts[k]);
             set_child(nodes_[index], k, parts[k].bounds, child);
         }
         return index;
@@ -84,9 +87,9 @@ class Builder {
         const std::uint32_t middle = range.begin + range.size() / 2;
         const Vec3f e = range.bounds.extent();
         const int axis = e.x > e.y ? (e.x > e.z ? 0 : 2) : (e.y > e.z ? 1 : 2);
-        std::nth_element(order_.begin() + range.begin, order_.begin() + middle, order_.begin() + range.end, [&](auto a, auto b) {
-            return std::pair(centers_[a][axis], a) < std::pair(centers_[b][axis], b);
-        });
+        std::nth_element(
+            order_.begin() + range.begin, order_.begin() + middle, order_.begin() + range.end,
+            [&](auto a, auto b) { return std::pair(centers_[a][axis], a) < std::pair(centers_[b][axis], b); });
         return middle;
     }
 

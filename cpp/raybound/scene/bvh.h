@@ -2,6 +2,7 @@
 // finds exactly the primitives whose bounds a brute-force loop would find crossed.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,20 +50,23 @@ struct Entry {
     std::uint32_t child;
 };
 
-// The children crossed, farthest first (so that they can be pushed on a stack); returns how many.
+// Which children the ray crosses within [0, t_max] (a byte each, not zero where it does), and where it enters each.
 template <class T>
-inline int crossed_children(const BvhNode& node, const Ray<T>& ray, T t_max, Entry<T> (&entries)[4]) {
+inline std::uint32_t crossed_children(const BvhNode& node, const Ray<T>& ray, T t_max, Pack4<T>& near) {
+    typedef std::int8_t Bytes __attribute__((vector_size(4)));
     const Pack4<T> lower[3] = {load<T>(node.lower[0]), load<T>(node.lower[1]), load<T>(node.lower[2])};
     const Pack4<T> upper[3] = {load<T>(node.upper[0]), load<T>(node.upper[1]), load<T>(node.upper[2])};
     const BoxInterval<Pack4<T>> inside = slab_interval(lower, upper, ray, T(0), t_max);
-    int count = 0;
-    for (int k = 0; k < 4; ++k) {
-        if (!(inside.near[k] <= inside.far[k])) continue;
-        int at = count++;
-        for (; at > 0 && entries[at - 1].near < inside.near[k]; --at) entries[at] = entries[at - 1];
-        entries[at] = {inside.near[k], node.child[k]};
-    }
-    return count;
+    near = inside.near;
+    return std::bit_cast<std::uint32_t>(__builtin_convertvector(inside.near <= inside.far, Bytes));
+}
+
+// Sorts a few entries, farthest first: the order in which a stack gives back the nearest.
+template <class T>
+inline void push_sorted(Entry<T>* stack, int& size, int begin, const Entry<T>& entry) {
+    int at = size++;
+    for (; at > begin && stack[at - 1].near < entry.near; --at) stack[at] = stack[at - 1];
+    stack[at] = entry;
 }
 
 }  // namespace bvh
@@ -80,9 +84,14 @@ void Bvh::traverse(const Ray<T>& ray, T t_max, const Visit& visit) const {
             if (visit(top.child & ~primitive_bit, top.near, t_max)) return;
             continue;
         }
-        bvh::Entry<T> entries[4];
-        const int count = bvh::crossed_children(nodes_[top.child], ray, t_max, entries);
-        for (int k = 0; k < count; ++k) stack[size++] = entries[k];
+        const BvhNode& node = nodes_[top.child];
+        Pack4<T> near;
+        const int begin = size;
+        for (std::uint32_t crossed = bvh::crossed_children(node, ray, t_max, near); crossed != 0;) {
+            const int k = std::countr_zero(crossed) / 8;
+            crossed &= ~(0xffu << (8 * k));
+            bvh::push_sorted(stack, size, begin, {near[k], node.child[k]});
+        }
     }
 }
 

@@ -17,15 +17,18 @@ ObjectRecord checked_object(std::int32_t id, ShapePointer shape, MaterialPointer
     const Box& box = trial.primitives.back().bounds;
     const float reach = maximum(max_component(absolute(box.lower)), max_component(absolute(box.upper)));
     if (!(reach <= 2 * largest_coordinate) || box.is_empty())
-        throw std::invalid_argument("Scene: shape must keep its coordinates within 2**60 when placed, got " + format(reach));
+        throw std::invalid_argument("Scene: shape must keep its coordinates within 2**60 when placed, got " +
+                                    format(reach));
     return {id, std::move(shape), std::move(material), placed};
 }
 
-template <class Record>
-Record& find(std::vector<Record>& records, std::int32_t id, const char* what) {
-    const auto it = std::lower_bound(records.begin(), records.end(), id, [](const Record& r, std::int32_t i) { return r.id < i; });
-    if (it == records.end() || it->id != id) throw std::invalid_argument(std::string("Scene: no ") + what + " with id " + std::to_string(id));
-    return *it;
+template <class Records>
+auto find(Records& records, std::int32_t id, const char* what) {
+    const auto it =
+        std::lower_bound(records.begin(), records.end(), id, [](const auto& r, std::int32_t i) { return r.id < i; });
+    if (it == records.end() || it->id != id)
+        throw std::invalid_argument(std::string("Scene: no ") + what + " with id " + std::to_string(id));
+    return it;
 }
 
 }  // namespace
@@ -41,28 +44,26 @@ Document::Document(const Document& other) {
     state_ = other.before_ ? *other.before_ : other.state_;
 }
 
-ObjectRecord& Document::object(std::int32_t id) { return find(state_.content.objects, id, "object"); }
-LightRecord& Document::light(std::int32_t id) { return find(state_.content.lights, id, "light"); }
 void Document::edited() { ++state_.revision; }
 
 std::int32_t Document::add_object(ShapePointer shape, MaterialPointer material, const Affine& transform) {
     const std::scoped_lock lock(mutex_);
-    state_.content.objects.push_back(checked_object(state_.next_object, std::move(shape), std::move(material), transform));
+    state_.content.objects.push_back(
+        checked_object(state_.next_object, std::move(shape), std::move(material), transform));
     edited();
     return state_.next_object++;
 }
 
 void Document::set_object(std::int32_t id, ShapePointer shape, MaterialPointer material, const Affine& transform) {
     const std::scoped_lock lock(mutex_);
-    ObjectRecord& record = object(id);
-    record = checked_object(id, std::move(shape), std::move(material), transform);
+    const auto record = find(state_.content.objects, id, "object");
+    *record = checked_object(id, std::move(shape), std::move(material), transform);
     edited();
 }
 
 void Document::remove_object(std::int32_t id) {
     const std::scoped_lock lock(mutex_);
-    const auto index = &object(id) - state_.content.objects.data();
-    state_.content.objects.erase(state_.content.objects.begin() + index);
+    state_.content.objects.erase(find(state_.content.objects, id, "object"));
     edited();
 }
 
@@ -77,14 +78,13 @@ std::int32_t Document::add_light(LightPointer value) {
 void Document::set_light(std::int32_t id, LightPointer value) {
     if (!value) throw std::invalid_argument("Scene: light must be given");
     const std::scoped_lock lock(mutex_);
-    light(id).light = std::move(value);
+    find(state_.content.lights, id, "light")->light = std::move(value);
     edited();
 }
 
 void Document::remove_light(std::int32_t id) {
     const std::scoped_lock lock(mutex_);
-    const auto index = &light(id) - state_.content.lights.data();
-    state_.content.lights.erase(state_.content.lights.begin() + index);
+    state_.content.lights.erase(find(state_.content.lights, id, "light"));
     edited();
 }
 
@@ -129,8 +129,8 @@ std::int64_t Document::revision() const {
 
 Boxd Document::object_bounds(std::int32_t id) const {
     const std::scoped_lock lock(mutex_);
-    const ObjectRecord& record = const_cast<Document*>(this)->object(id);
-    return shape_bounds(*record.shape, record.transform);
+    const auto record = find(state_.content.objects, id, "object");
+    return shape_bounds(*record->shape, record->transform);
 }
 
 std::optional<Boxd> Document::bounds() const {

@@ -43,8 +43,6 @@ class Document {
         std::int64_t revision = 0;
     };
 
-    ObjectRecord& object(std::int32_t id);
-    LightRecord& light(std::int32_t id);
     void edited();
 
     mutable std::mutex mutex_;

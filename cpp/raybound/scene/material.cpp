@@ -12,13 +12,15 @@ namespace {
 
 void require_colour(const char* object, const char* argument, const Vec3f& c) {
     require_finite(object, argument, c);
-    if (!(c.x >= 0 && c.y >= 0 && c.z >= 0)) refuse(std::string(object) + ": " + argument + " must be >= 0, got " + format(c));
+    if (!(c.x >= 0 && c.y >= 0 && c.z >= 0))
+        refuse(std::string(object) + ": " + argument + " must be >= 0, got " + format(c));
 }
 
 Vec3f unit_direction(const char* object, const Vec3f& direction) {
     require_finite(object, "direction", direction);
     const double size = length(Vec3d(direction));
-    if (!(size >= double(least_size))) refuse(std::string(object) + ": direction must not be zero, got " + format(direction));
+    if (!(size >= double(least_size)))
+        refuse(std::string(object) + ": direction must not be zero, got " + format(direction));
     return Vec3f(Vec3d(direction) * (1 / size));
 }
 
@@ -31,7 +33,9 @@ MaterialPointer make_material(const Material& m) {
     require_colour("Material", "transmit", m.transmit);
     require_finite("Material", "roughness", m.roughness);
     require_finite("Material", "ior", m.ior);
-    if (!(m.roughness >= 1e-4f)) refuse("Material: roughness must be >= 0.0001 (the Ward lobe's peak grows with 1/roughness**2), got " + format(m.roughness));
+    if (!(m.roughness >= 1e-4f))
+        refuse("Material: roughness must be >= 0.0001 (the Ward lobe's peak grows with 1/roughness**2), got " +
+               format(m.roughness));
     if (!(m.ior >= 1e-3f && m.ior <= 1e3f)) refuse("Material: ior must be within 0.001 and 1000, got " + format(m.ior));
     return std::make_shared<const Material>(m);
 }
@@ -55,10 +59,12 @@ LightPointer make_point_light(const Vec3f& position, const Vec3f& intensity, boo
     return std::make_shared<const Light>(light);
 }
 
-LightPointer make_spot_light(const Vec3f& position, const Vec3f& direction, float cutoff, const Vec3f& intensity, bool falloff) {
+LightPointer make_spot_light(const Vec3f& position, const Vec3f& direction, float cutoff, const Vec3f& intensity,
+                             bool falloff) {
     require_finite("SpotLight", "position", position);
     require_colour("SpotLight", "intensity", intensity);
-    if (!(cutoff > 0 && cutoff <= 180)) refuse("SpotLight: cutoff must be within 0 and 180 degrees, got " + format(cutoff));
+    if (!(cutoff > 0 && cutoff <= 180))
+        refuse("SpotLight: cutoff must be within 0 and 180 degrees, got " + format(cutoff));
     Light light;
     light.kind = LightKind::spot;
     light.position = position;

@@ -29,6 +29,7 @@ using LightPointer = std::shared_ptr<const Light>;
 
 LightPointer make_directional_light(const Vec3f& direction, const Vec3f& radiance);
 LightPointer make_point_light(const Vec3f& position, const Vec3f& intensity, bool falloff);
-LightPointer make_spot_light(const Vec3f& position, const Vec3f& direction, float cutoff, const Vec3f& intensity, bool falloff);
+LightPointer make_spot_light(const Vec3f& position, const Vec3f& direction, float cutoff, const Vec3f& intensity,
+                             bool falloff);
 
 }  // namespace raybound

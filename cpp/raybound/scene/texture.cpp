@@ -13,8 +13,10 @@ template <class T>
 T wrapped(T x, Wrap wrap) {
     if (!(abs(x) < T(0x1p40))) return T(0);
     switch (wrap) {
-        case Wrap::repeat: return x - std::floor(x);
-        case Wrap::clamp: return minimum(maximum(x, T(0)), T(1));
+        case Wrap::repeat:
+            return x - std::floor(x);
+        case Wrap::clamp:
+            return minimum(maximum(x, T(0)), T(1));
         default: {
             const T half = x * T(0.5), phase = (half - std::floor(half)) * T(2);
             return phase > T(1) ? T(2) - phase : phase;
@@ -45,11 +47,15 @@ Tap<T> tap(T x, int size, Wrap wrap) {
 
 Texture::Texture(std::vector<Vec3f> texels, int width, int height, float scale_u, float scale_v, Wrap wrap)
     : texels_(std::move(texels)), width_(width), height_(height), scale_u_(scale_u), scale_v_(scale_v), wrap_(wrap) {
-    if (width < 1 || height < 1) throw std::invalid_argument("Texture: image must have at least one texel, got " + std::to_string(width) + "x" + std::to_string(height));
+    if (width < 1 || height < 1)
+        throw std::invalid_argument("Texture: image must have at least one texel, got " + std::to_string(width) + "x" +
+                                    std::to_string(height));
     for (const float s : {scale_u, scale_v})
-        if (!(std::abs(s) <= 0x1p30f) || s == 0) throw std::invalid_argument("Texture: scale must be finite and not zero, got " + format(s));
+        if (!(std::abs(s) <= 0x1p30f) || s == 0)
+            throw std::invalid_argument("Texture: scale must be finite and not zero, got " + format(s));
     for (const Vec3f& c : texels_)
-        if (!(c.x >= 0 && c.y >= 0 && c.z >= 0 && is_finite(c))) throw std::invalid_argument("Texture: texels must be finite and >= 0, got " + format(c));
+        if (!(c.x >= 0 && c.y >= 0 && c.z >= 0 && is_finite(c)))
+            throw std::invalid_argument("Texture: texels must be finite and >= 0, got " + format(c));
 }
 
 template <class T>

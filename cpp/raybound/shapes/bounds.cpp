@@ -21,17 +21,23 @@ Boxd frame_bounds(const Shape& shape, const Affine& frame) {
     Boxd box;
     switch (shape.kind()) {
         case ShapeKind::sphere:
-            extend_around(box, frame.offset, {length(frame.linear.row[0]), length(frame.linear.row[1]), length(frame.linear.row[2])});
+            extend_around(box, frame.offset,
+                          {length(frame.linear.row[0]), length(frame.linear.row[1]), length(frame.linear.row[2])});
             break;
-        case ShapeKind::box: extend_around(box, frame.offset, absolute(x) + absolute(y) + absolute(z)); break;
+        case ShapeKind::box:
+            extend_around(box, frame.offset, absolute(x) + absolute(y) + absolute(z));
+            break;
         case ShapeKind::cylinder:
         case ShapeKind::cone: {
-            const double top = shape.kind() == ShapeKind::cone ? double(shape.top_radius()) / double(shape.radius()) : 1.0;
+            const double top =
+                shape.kind() == ShapeKind::cone ? double(shape.top_radius()) / double(shape.radius()) : 1.0;
             extend_around(box, frame.offset, round);
             extend_around(box, frame.offset + z, round * top);
             break;
         }
-        default: extend_around(box, frame.offset, round); break;
+        default:
+            extend_around(box, frame.offset, round);
+            break;
     }
     return box;
 }
@@ -49,7 +55,8 @@ Affine unit_frame(const Shape& shape) {
     const Vec3d first(shape.first()), second(shape.second());
     const double r = shape.radius();
     switch (shape.kind()) {
-        case ShapeKind::sphere: return {{{r, 0, 0}, {0, r, 0}, {0, 0, r}}, first};
+        case ShapeKind::sphere:
+            return {{{r, 0, 0}, {0, r, 0}, {0, 0, r}}, first};
         case ShapeKind::box: {
             const Vec3d half = (second - first) * 0.5;
             return {{{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}}, (first + second) * 0.5};
@@ -73,7 +80,8 @@ Boxd shape_bounds(const Shape& shape, const Affine& placement) {
         case ShapeKind::polygon:
             for (const Vec3f& v : shape.vertices()) box.extend(Vec3d(Vec3f(placement.point(Vec3d(v)))));
             return box;
-        case ShapeKind::transformed: return shape_bounds(*shape.parts()[0], placement * shape.transform());
+        case ShapeKind::transformed:
+            return shape_bounds(*shape.parts()[0], placement * shape.transform());
         case ShapeKind::csg_union:
             for (const auto& part : shape.parts()) box.extend(shape_bounds(*part, placement));
             return box;
@@ -81,7 +89,8 @@ Boxd shape_bounds(const Shape& shape, const Affine& placement) {
             box = shape_bounds(*shape.parts()[0], placement);
             for (const auto& part : shape.parts()) box = intersection(box, shape_bounds(*part, placement));
             return box;
-        default: return frame_bounds(shape, placement * unit_frame(shape));
+        default:
+            return frame_bounds(shape, placement * unit_frame(shape));
     }
 }
 

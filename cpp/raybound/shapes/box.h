@@ -28,12 +28,18 @@ inline UV<T> box_uv(const Vec3<T>& y, int face, const Vec3<T>& lower, const Vec3
     const Vec3<T> s{(y.x - lower.x) / (upper.x - lower.x), (y.y - lower.y) / (upper.y - lower.y),
                     (y.z - lower.z) / (upper.z - lower.z)};
     switch (face) {
-        case 0: return {T(1) - s.y, s.z};
-        case 1: return {s.y, s.z};
-        case 2: return {s.x, s.z};
-        case 3: return {T(1) - s.x, s.z};
-        case 4: return {T(1) - s.x, s.y};
-        default: return {s.x, s.y};
+        case 0:
+            return {T(1) - s.y, s.z};
+        case 1:
+            return {s.y, s.z};
+        case 2:
+            return {s.x, s.z};
+        case 3:
+            return {T(1) - s.x, s.z};
+        case 4:
+            return {T(1) - s.x, s.y};
+        default:
+            return {s.x, s.y};
     }
 }
 

@@ -11,7 +11,8 @@ inline Banded<T> cone_form(const Vec3<T>& y, T radius, T slope, T error) {
     const T w = radius - slope * y.z;
     const T reach = radius + abs(slope * y.z);  // bounds what w was rounded from
     const T squared = y.x * y.x + y.y * y.y;
-    const T band = square_band(abs(y.x) + abs(y.y), squared, error) + square_band(reach, reach * reach, abs(slope) * error);
+    const T band =
+        square_band(abs(y.x) + abs(y.y), squared, error) + square_band(reach, reach * reach, abs(slope) * error);
     return {squared - w * w, band + gamma<T>(4) * reach * reach};
 }
 
@@ -41,7 +42,7 @@ inline Span<T> cone_side_span(const LocalRay<T>& ray, T radius, T slope) {
     const Quadratic<T> q = cone_quadratic(ray, radius, slope);
     const Roots<T> roots = solve(q);
     Span<T> span = between(roots, 0);
-    const Mask<T> steep = q.a < T(0), widening = -(slope * ray.direction.z) > T(0);
+    const Mask<T> steep = q.a<T(0), widening = -(slope * ray.direction.z)> T(0);
     const Mask<T> enters = steep & widening, leaves = steep & !widening;
     span.t_in = select(enters, roots.high, select(leaves, -infinity<T>, roots.low));
     span.t_out = select(leaves, roots.low, select(enters, infinity<T>, roots.high));

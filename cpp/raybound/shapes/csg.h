@@ -1,6 +1,12 @@
-// CSG by intervals along the ray (Roth 1982; thesis 4.2.3): each leaf gives the part of the line inside it, unions merge
-// and intersections cut these parts, and the first boundary ahead is the hit. A union so has no inner walls.
+// CSG by intervals along the ray (Roth 1982; thesis 4.2.3): each leaf gives the part of the line inside it, unions
+// merge and intersections cut these parts, and the first boundary ahead is the hit. A union so has no inner walls.
 #pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory_resource>
+#include <vector>
 
 #include "raybound/shapes/leaf.h"
 
@@ -46,17 +52,22 @@ inline T boundary_error(const Geometry& geometry, const Leaf& leaf, int face, T 
 template <class T>
 class CsgEvaluation {
   public:
-    CsgEvaluation(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), ray_(ray) {}
+    CsgEvaluation(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), ray_(ray) { stack_.reserve(32); }
+    CsgEvaluation(const CsgEvaluation&) = delete;
+    CsgEvaluation& operator=(const CsgEvaluation&) = delete;
 
-    const std::vector<Interval<T>>& intervals() const { return stack_; }
+    std::span<const Interval<T>> intervals() const { return stack_; }
     bool unsure() const { return unsure_; }
 
     void evaluate(std::uint32_t index) {
         const CsgNode& node = geometry_.csg_nodes[index];
         switch (node.kind) {
-            case CsgKind::leaf: return push_leaf(index, node);
-            case CsgKind::csg_union: return unite(node);
-            case CsgKind::csg_intersection: return intersect(node);
+            case CsgKind::leaf:
+                return push_leaf(index, node);
+            case CsgKind::csg_union:
+                return unite(node);
+            case CsgKind::csg_intersection:
+                return intersect(node);
         }
     }
 
@@ -66,8 +77,10 @@ class CsgEvaluation {
         const Span<T> span = leaf_span(geometry_, leaf, ray_);
         unsure_ = unsure_ || span.unsure;
         if (!span.hit) return;
-        stack_.push_back({{span.t_in, boundary_error(geometry_, leaf, span.face_in, span.t_in, ray_), index, span.face_in, span.in_ahead},
-                          {span.t_out, boundary_error(geometry_, leaf, span.face_out, span.t_out, ray_), index, span.face_out, span.out_ahead}});
+        stack_.push_back({{span.t_in, boundary_error(geometry_, leaf, span.face_in, span.t_in, ray_), index,
+                           span.face_in, span.in_ahead},
+                          {span.t_out, boundary_error(geometry_, leaf, span.face_out, span.t_out, ray_), index,
+                           span.face_out, span.out_ahead}});
     }
 
     std::uint32_t child(const CsgNode& node, std::uint32_t i) const { return geometry_.csg_children[node.first + i]; }
@@ -77,7 +90,9 @@ class CsgEvaluation {
         const std::size_t begin = stack_.size();
         for (std::uint32_t i = 0; i < node.count; ++i) evaluate(child(node, i));
         const auto first = stack_.begin() + std::ptrdiff_t(begin);
-        std::stable_sort(first, stack_.end(), [](const auto& a, const auto& b) { return a.in.t < b.in.t; });
+        std::sort(first, stack_.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.in.t, a.in.node) < std::pair(b.in.t, b.in.node);  // equal entries: the earlier part
+        });
         std::size_t last = begin;
         for (std::size_t i = begin + 1; i < stack_.size(); ++i) {
             if (stack_[i].in.t - stack_[i].in.error <= stack_[last].out.t + stack_[last].out.error) {
@@ -110,7 +125,10 @@ class CsgEvaluation {
 
     const Geometry& geometry_;
     const Ray<T>& ray_;
-    std::vector<Interval<T>> stack_;
+    // Most expressions fit in the buffer: no allocation on the way of a ray.
+    alignas(Interval<T>) std::array<std::byte, 64 * sizeof(Interval<T>)> buffer_;
+    std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
+    std::pmr::vector<Interval<T>> stack_{&memory_};
     bool unsure_ = false;
 };
 

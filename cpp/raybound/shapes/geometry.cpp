@@ -11,7 +11,8 @@ bool is_scaled_identity(const Mat3<double>& m) {
     return m == Mat3<double>({m.row[0].x, 0, 0}, {0, m.row[0].x, 0}, {0, 0, m.row[0].x}) && m.row[0].x > 0;
 }
 bool is_positive_diagonal(const Mat3<double>& m) {
-    return m == Mat3<double>({m.row[0].x, 0, 0}, {0, m.row[1].y, 0}, {0, 0, m.row[2].z}) && m.row[0].x > 0 && m.row[1].y > 0 && m.row[2].z > 0;
+    return m == Mat3<double>({m.row[0].x, 0, 0}, {0, m.row[1].y, 0}, {0, 0, m.row[2].z}) && m.row[0].x > 0 &&
+           m.row[1].y > 0 && m.row[2].z > 0;
 }
 
 Vec3f rounded(const Vec3d& v, float& error) {
@@ -45,7 +46,8 @@ Frame make_frame(const Affine& unit, double slope) {
 // Inverting and composing in double leaves an error of about 2^-50 times the condition of the map.
 float frame_surface_error(const Frame& frame) {
     const double condition = maximum(1.0, double(frame.norm) * frame.inverse_norm);
-    return next_float_up(float(0x1p-48 * condition * (frame.inverse_norm * double(frame.radius) + norm1(frame.center_wide) * 0x1p-4)));
+    return next_float_up(
+        float(0x1p-48 * condition * (frame.inverse_norm * double(frame.radius) + norm1(frame.center_wide) * 0x1p-4)));
 }
 
 PolygonPlane make_plane(const std::vector<Vec3f>& v) {
@@ -77,7 +79,8 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
     for (const Vec3f& v : shape.vertices()) placed.push_back(rounded(placement.point(Vec3d(v)), leaf.surface_error));
     PolygonPlane plane = make_plane(placed);
     if (!is_finite(Vec3f(plane.slope_i, plane.slope_j, 0)) || !is_finite(plane.u_axis) || !is_finite(plane.v_axis))
-        throw std::invalid_argument("Polygon: the transform must keep the vertices apart, they collapse when rounded to float32");
+        throw std::invalid_argument(
+            "Polygon: the transform must keep the vertices apart, they collapse when rounded to float32");
     plane.first_vertex = std::uint32_t(geometry.vertices.size());
     plane.vertex_count = std::uint32_t(placed.size());
     // The plane passes through the first vertex; the others are off it by their rounding, or by the user's.
@@ -113,7 +116,8 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
     if (shape.kind() == ShapeKind::polygon) {
         place_polygon(geometry, leaf, shape, placement);
     } else if (!place_in_world(leaf, shape, placement)) {
-        const double slope = shape.kind() == ShapeKind::cone ? 1 - double(shape.top_radius()) / double(shape.radius()) : 0;
+        const double slope =
+            shape.kind() == ShapeKind::cone ? 1 - double(shape.top_radius()) / double(shape.radius()) : 0;
         const Frame frame = make_frame(placement * unit_frame(shape), slope);
         leaf.surface_error = frame_surface_error(frame);
         leaf.frame = std::int32_t(geometry.frames.size());
@@ -124,7 +128,8 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
 }
 
 std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement, std::int32_t& face) {
-    if (shape.kind() == ShapeKind::transformed) return add_csg(geometry, *shape.parts()[0], placement * shape.transform(), face);
+    if (shape.kind() == ShapeKind::transformed)
+        return add_csg(geometry, *shape.parts()[0], placement * shape.transform(), face);
     CsgNode node;
     if (shape.parts().empty()) {
         node.face_offset = face;
@@ -156,7 +161,8 @@ const Shape& strip_transforms(const Shape& shape, Affine& placement) {
 Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine& placement, std::uint32_t first_leaf) {
     Boxd box = shape_bounds(shape, placement);
     double error = 0;
-    for (std::size_t i = first_leaf; i < geometry.leaves.size(); ++i) error = std::max(error, double(geometry.leaves[i].surface_error));
+    for (std::size_t i = first_leaf; i < geometry.leaves.size(); ++i)
+        error = std::max(error, double(geometry.leaves[i].surface_error));
     const Vec3d margin{error, error, error};
     return conservative_box({box.lower - margin, box.upper + margin});
 }
@@ -165,8 +171,8 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
 
 std::size_t Geometry::bytes() const {
     return primitives.size() * sizeof(Primitive) + leaves.size() * sizeof(Leaf) + frames.size() * sizeof(Frame) +
-           polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3f) + csg_nodes.size() * sizeof(CsgNode) +
-           csg_children.size() * sizeof(std::uint32_t);
+           polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3f) +
+           csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
 }
 
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {

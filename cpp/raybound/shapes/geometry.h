@@ -20,8 +20,8 @@ struct Frame {
     float radius = 1, norm = 1;  // norm: the largest row sum of |A|, rounded up
     Mat3<double> linear_wide;
     Vec3d center_wide;
-    double slope = 0;            // of a cone
-    double inverse_norm = 1;     // of A^-1: how far a local distance reaches in the world
+    double slope = 0;         // of a cone
+    double inverse_norm = 1;  // of A^-1: how far a local distance reaches in the world
 };
 
 // A convex primitive. Without a frame it stands in world coordinates: a sphere (first, radius), a box (first, second),
@@ -62,7 +62,9 @@ struct Geometry {
     std::vector<CsgNode> csg_nodes;
     std::vector<std::uint32_t> csg_children;
 
-    std::span<const Vec3f> polygon_vertices(const PolygonPlane& p) const { return {vertices.data() + p.first_vertex, p.vertex_count}; }
+    std::span<const Vec3f> polygon_vertices(const PolygonPlane& p) const {
+        return {vertices.data() + p.first_vertex, p.vertex_count};
+    }
     std::size_t bytes() const;
 };
 

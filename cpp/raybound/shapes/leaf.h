@@ -45,7 +45,11 @@ template <class T>
 inline LocalRay<T> local_ray(const Frame& frame, const Ray<T>& ray) {
     const LocalPoint<T> origin = to_local(frame, ray.origin);
     const Vec3<T> d = frame_linear<T>(frame) * ray.direction;
-    return {origin.y, d, {T(1) / d.x, T(1) / d.y, T(1) / d.z}, origin.error, T(frame.norm) * gamma<T>(5) * norm1(ray.direction)};
+    return {origin.y,
+            d,
+            {T(1) / d.x, T(1) / d.y, T(1) / d.z},
+            origin.error,
+            T(frame.norm) * gamma<T>(5) * norm1(ray.direction)};
 }
 
 // Without a frame: a sphere's origin is moved by its exact centre, with one rounding.
@@ -59,11 +63,16 @@ template <class T>
 inline Span<T> framed_span(const Leaf& leaf, const Frame& frame, const LocalRay<T>& ray) {
     const T radius = T(frame.radius);
     switch (leaf.kind) {
-        case LeafKind::sphere: return sphere_span(ray, radius);
-        case LeafKind::box: return box_span(ray, {-radius, -radius, -radius}, {radius, radius, radius});
-        case LeafKind::cylinder: return cylinder_span(ray, radius);
-        case LeafKind::cone: return cone_span(ray, radius, T(frame.slope));
-        default: return disk_span(ray, radius);
+        case LeafKind::sphere:
+            return sphere_span(ray, radius);
+        case LeafKind::box:
+            return box_span(ray, {-radius, -radius, -radius}, {radius, radius, radius});
+        case LeafKind::cylinder:
+            return cylinder_span(ray, radius);
+        case LeafKind::cone:
+            return cone_span(ray, radius, T(frame.slope));
+        default:
+            return disk_span(ray, radius);
     }
 }
 
@@ -81,24 +90,32 @@ inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T
         const LocalPoint<T> origin = to_sphere(leaf, ray.origin);
         return sphere_span(LocalRay<T>{origin.y, ray.direction, ray.reciprocal, origin.error, T(0)}, T(leaf.radius));
     }
-    return box_span(LocalRay<T>{ray.origin, ray.direction, ray.reciprocal, T(0), T(0)}, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
+    return box_span(LocalRay<T>{ray.origin, ray.direction, ray.reciprocal, T(0), T(0)}, Vec3<T>(leaf.first),
+                    Vec3<T>(leaf.second));
 }
 
 template <class T>
-inline Surface<T> framed_surface(const Leaf& leaf, const Frame& frame, int face, const LocalPoint<T>& p, const Vec3<T>& d) {
+inline Surface<T> framed_surface(const Leaf& leaf, const Frame& frame, int face, const LocalPoint<T>& p,
+                                 const Vec3<T>& d) {
     const T radius = T(frame.radius);
     switch (leaf.kind) {
-        case LeafKind::sphere: return sphere_surface(p.y, d, radius, p.error);
-        case LeafKind::box: return box_surface(p.y, face, {-radius, -radius, -radius}, {radius, radius, radius}, p.error);
-        case LeafKind::cylinder: return cylinder_surface(p.y, d, face, radius, p.error);
-        case LeafKind::cone: return cone_surface(p.y, d, face, radius, T(frame.slope), p.error);
-        default: return disk_surface(p.y, p.error);
+        case LeafKind::sphere:
+            return sphere_surface(p.y, d, radius, p.error);
+        case LeafKind::box:
+            return box_surface(p.y, face, {-radius, -radius, -radius}, {radius, radius, radius}, p.error);
+        case LeafKind::cylinder:
+            return cylinder_surface(p.y, d, face, radius, p.error);
+        case LeafKind::cone:
+            return cone_surface(p.y, d, face, radius, T(frame.slope), p.error);
+        default:
+            return disk_surface(p.y, p.error);
     }
 }
 
 // The surface function of a face at a world point; its gradient comes back in world coordinates.
 template <class T>
-inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<T>& p, const Vec3<T>& direction) {
+inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<T>& p,
+                               const Vec3<T>& direction) {
     if (leaf.kind == LeafKind::polygon) {
         const PolygonPlane& plane = geometry.polygons[leaf.polygon];
         return polygon_surface(plane, Vec3<T>(geometry.vertices[plane.first_vertex]), p);
@@ -121,11 +138,16 @@ template <class T>
 inline UV<T> framed_uv(const Leaf& leaf, const Frame& frame, int face, const Vec3<T>& y) {
     const T radius = T(frame.radius);
     switch (leaf.kind) {
-        case LeafKind::sphere: return sphere_uv(y, radius);
-        case LeafKind::box: return box_uv(y, face, {-radius, -radius, -radius}, {radius, radius, radius});
-        case LeafKind::cylinder: return cylinder_uv(y, face, radius);
-        case LeafKind::cone: return cone_uv(y, face, radius, T(frame.slope));
-        default: return disk_uv(y.x, y.y, radius);
+        case LeafKind::sphere:
+            return sphere_uv(y, radius);
+        case LeafKind::box:
+            return box_uv(y, face, {-radius, -radius, -radius}, {radius, radius, radius});
+        case LeafKind::cylinder:
+            return cylinder_uv(y, face, radius);
+        case LeafKind::cone:
+            return cone_uv(y, face, radius, T(frame.slope));
+        default:
+            return disk_uv(y.x, y.y, radius);
     }
 }
 

@@ -7,8 +7,8 @@
 
 namespace raybound {
 
-// The plane is F(x) = orientation * ((x_k - v_k) + m_i (x_i - v_i) + m_j (x_j - v_j)), k the dominant axis of the normal
-// and |m| <= 1, with v the first vertex: exact for the floats that define it, without a unit normal to round.
+// The plane is F(x) = orientation * ((x_k - v_k) + m_i (x_i - v_i) + m_j (x_j - v_j)), k the dominant axis of the
+// normal and |m| <= 1, with v the first vertex: exact for the floats that define it, without a unit normal to round.
 struct PolygonPlane {
     std::uint32_t first_vertex = 0, vertex_count = 0;
     int axis = 2;
@@ -20,7 +20,8 @@ struct PolygonPlane {
 template <class T>
 inline Banded<T> plane_form(const PolygonPlane& plane, const Vec3<T>& v, const Vec3<T>& p) {
     const int k = plane.axis, i = (k + 1) % 3, j = (k + 2) % 3;
-    const T height = p[k] - v[k], along_i = T(plane.slope_i) * (p[i] - v[i]), along_j = T(plane.slope_j) * (p[j] - v[j]);
+    const T height = p[k] - v[k], along_i = T(plane.slope_i) * (p[i] - v[i]),
+            along_j = T(plane.slope_j) * (p[j] - v[j]);
     return {T(plane.orientation) * (height + along_i + along_j),
             gamma<T>(5) * (abs(height) + abs(along_i) + abs(along_j))};
 }

@@ -41,7 +41,11 @@ inline Roots<T> solve(const Quadratic<T>& q) {
     roots.real = q.discriminant >= T(0);
     roots.unsure = abs(q.c.value) <= q.c.band;
     const Mask<T> rising = sum > select(roots.unsure, q.b_band, T(0));
+#ifdef RAYBOUND_SABOTAGE_PREDICATE
+    roots.low_ahead = (product > -q.c.band) & rising;  // the sabotage build: unknown is read as yes
+#else
     roots.low_ahead = (product > q.c.band) & rising;
+#endif
     roots.high_ahead = (product < -q.c.band) | rising;
     return roots;
 }

@@ -17,7 +17,8 @@ void require_size(const char* object, const char* argument, float value) {
 }
 
 void require_apart(const char* object, const char* what, const Vec3f& a, const Vec3f& b) {
-    if (length(Vec3d(b) - Vec3d(a)) < double(least_size)) refuse(std::string(object) + ": " + what + " must differ, got " + format(a) + " twice");
+    if (length(Vec3d(b) - Vec3d(a)) < double(least_size))
+        refuse(std::string(object) + ": " + what + " must differ, got " + format(a) + " twice");
 }
 
 // The normal of a closed polygon, twice its area long (Newell's sums, in double).
@@ -43,7 +44,8 @@ void require_planar(const std::vector<Vec3f>& vertices, const Vec3d& unit) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const double off = dot(unit, Vec3d(vertices[i]) - Vec3d(vertices[0]));
         if (!(std::abs(off) <= tolerance))
-            refuse("Polygon: vertices must be planar, vertex " + std::to_string(i) + " is " + format(std::abs(off)) + " off the plane");
+            refuse("Polygon: vertices must be planar, vertex " + std::to_string(i) + " is " + format(std::abs(off)) +
+                   " off the plane");
     }
 }
 
@@ -54,13 +56,15 @@ void require_convex(const std::vector<Vec3f>& vertices, const Vec3d& unit, doubl
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3d a(vertices[i]), b(vertices[(i + 1) % n]), c(vertices[(i + 2) % n]);
         const Vec3d ab = b - a, bc = c - b;
-        if (length(ab) == 0) refuse("Polygon: vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % n) + " coincide");
+        if (length(ab) == 0)
+            refuse("Polygon: vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % n) + " coincide");
         const double left = dot(unit, cross(ab, bc));
         if (left < -1e-6 * extent * maximum(length(ab), length(bc)))
             refuse("Polygon: vertices must be convex, vertex " + std::to_string((i + 1) % n) + " turns inward");
         turns += std::atan2(left, dot(ab, bc));
     }
-    if (std::abs(turns - 6.283185307179586) > 0.1) refuse("Polygon: vertices must go around once, they cross themselves");
+    if (std::abs(turns - 6.283185307179586) > 0.1)
+        refuse("Polygon: vertices must go around once, they cross themselves");
 }
 
 }  // namespace
@@ -98,7 +102,8 @@ ShapePointer Shape::box(const Vec3f& lower, const Vec3f& upper) {
     require_finite("Box", "max", upper);
     for (int i = 0; i < 3; ++i)
         if (!(double(upper[i]) - double(lower[i]) >= double(least_size)))
-            refuse("Box: max must be greater than min in every coordinate, got min " + format(lower) + ", max " + format(upper));
+            refuse("Box: max must be greater than min in every coordinate, got min " + format(lower) + ", max " +
+                   format(upper));
     auto* shape = new Shape(ShapeKind::box);
     shape->first_ = lower;
     shape->second_ = upper;
@@ -121,7 +126,8 @@ ShapePointer Shape::cone(const Vec3f& base, const Vec3f& apex, float radius, flo
     require_finite("Cone", "base", base);
     require_finite("Cone", "apex", apex);
     require_size("Cone", "radius", radius);
-    if (!(top_radius >= 0 && top_radius <= largest_coordinate)) refuse("Cone: top_radius must be >= 0, got " + format(top_radius));
+    if (!(top_radius >= 0 && top_radius <= largest_coordinate))
+        refuse("Cone: top_radius must be >= 0, got " + format(top_radius));
     require_apart("Cone", "base and apex", base, apex);
     auto* shape = new Shape(ShapeKind::cone);
     shape->first_ = base;
@@ -149,7 +155,8 @@ ShapePointer Shape::polygon(std::vector<Vec3f> vertices) {
     const double extent = extent_of(vertices);
     const Vec3d normal = newell_normal(vertices);
     const double area = length(normal);
-    if (!(area > 1e-7 * extent * extent) || extent < double(least_size)) refuse("Polygon: vertices must not be collinear");
+    if (!(area > 1e-7 * extent * extent) || extent < double(least_size))
+        refuse("Polygon: vertices must not be collinear");
     const Vec3d unit = normal * (1 / area);
     require_planar(vertices, unit);
     require_convex(vertices, unit, extent);
@@ -168,7 +175,8 @@ ShapePointer Shape::combine(ShapeKind operation, std::vector<ShapePointer> parts
     auto* shape = new Shape(operation);
     shape->parts_ = std::move(parts);
     ShapePointer pointer(shape);
-    if (shape_bounds(*pointer, {}).is_empty()) refuse(name + ": the parts do not overlap, their intersection encloses nothing");
+    if (shape_bounds(*pointer, {}).is_empty())
+        refuse(name + ": the parts do not overlap, their intersection encloses nothing");
     return pointer;
 }
 
@@ -186,13 +194,17 @@ bool Shape::is_solid() const {
 
 int Shape::face_count() const {
     switch (kind_) {
-        case ShapeKind::box: return 6;
+        case ShapeKind::box:
+            return 6;
         case ShapeKind::cylinder:
-        case ShapeKind::cone: return 3;
+        case ShapeKind::cone:
+            return 3;
         case ShapeKind::sphere:
         case ShapeKind::disk:
-        case ShapeKind::polygon: return 1;
-        default: break;
+        case ShapeKind::polygon:
+            return 1;
+        default:
+            break;
     }
     int count = 0;
     for (const auto& part : parts_) count += part->face_count();
@@ -213,7 +225,8 @@ Affine checked_transform(const std::string& owner, const Affine& transform) {
         if (!is_finite(rounded.linear.row[i])) refuse(owner + ": matrix must be finite");
     }
     rounded.offset = Vec3d(Vec3f(transform.offset));
-    if (!(max_component(absolute(rounded.offset)) <= double(largest_coordinate))) refuse(owner + ": matrix must be finite and its translation at most 2**60");
+    if (!(max_component(absolute(rounded.offset)) <= double(largest_coordinate)))
+        refuse(owner + ": matrix must be finite and its translation at most 2**60");
     const Vec3d c0 = rounded.linear.column(0), c1 = rounded.linear.column(1), c2 = rounded.linear.column(2);
     const double volume = std::abs(determinant(rounded.linear)), lengths = length(c0) * length(c1) * length(c2);
     const double size = maximum(maximum(length(c0), length(c1)), length(c2));

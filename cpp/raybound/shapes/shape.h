@@ -10,7 +10,17 @@
 
 namespace raybound {
 
-enum class ShapeKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon, csg_union, csg_intersection, transformed };
+enum class ShapeKind : std::uint8_t {
+    sphere,
+    box,
+    cylinder,
+    cone,
+    disk,
+    polygon,
+    csg_union,
+    csg_intersection,
+    transformed
+};
 
 class Shape;
 using ShapePointer = std::shared_ptr<const Shape>;
@@ -36,8 +46,8 @@ class Shape {
     const std::vector<ShapePointer>& parts() const { return parts_; }
     const Affine& transform() const { return transform_; }
 
-    bool is_solid() const;       // encloses a volume: what CSG can combine
-    int face_count() const;      // faces of the parts count one after the other
+    bool is_solid() const;   // encloses a volume: what CSG can combine
+    int face_count() const;  // faces of the parts count one after the other
     int primitive_count() const;
 
   private:
@@ -58,7 +68,8 @@ Boxd shape_bounds(const Shape& shape, const Affine& placement);
 // of the coordinates.
 Box conservative_box(const Boxd& box);
 
-// The map from a primitive's own unit coordinates (unit radius, unit height along z, centred cube) to its description's.
+// The map from a primitive's own unit coordinates (unit radius, unit height along z, centred cube) to its
+// description's.
 Affine unit_frame(const Shape& shape);
 
 // Checks of numbers that enter, in one place; all throw std::invalid_argument.

@@ -13,7 +13,8 @@ void store(const Vec3<T>& v, S (&out)[3]) {
 
 template <class T>
 Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale, std::size_t index) {
-    if (!scale_direction(direction, scale)) throw std::invalid_argument("directions must not be zero, direction " + std::to_string(index) + " is");
+    if (!scale_direction(direction, scale))
+        throw std::invalid_argument("directions must not be zero, direction " + std::to_string(index) + " is");
     return make_ray(origin, direction);
 }
 
@@ -28,8 +29,9 @@ HitRecord hit_record(const Snapshot& scene, const Nearest<float>& nearest, const
     const SurfacePoint<float> at = surface_point(scene.geometry(), nearest.crossing, ray);
     HitRecord record{};
     record.hit = true;
-    record.t = at.t / scale;
-    record.t_error = scale == 1 ? at.t_error : next_float_up(at.t_error / scale);
+    constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
+    record.t = minimum(at.t / scale, most);
+    record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
     store(at.point, record.point);
     store(at.point_error, record.point_error);
     store(at.normal, record.normal);
@@ -49,7 +51,8 @@ Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& n, Offsets offsets) {
 }
 
 template <class T>
-ShapeHitRecord shape_record(const Geometry& geometry, const Crossing<T>& crossing, const Ray<T>& ray, T scale, Offsets offsets) {
+ShapeHitRecord shape_record(const Geometry& geometry, const Crossing<T>& crossing, const Ray<T>& ray, T scale,
+                            Offsets offsets) {
     const SurfacePoint<T> at = surface_point(geometry, crossing, ray);
     ShapeHitRecord record{};
     record.hit = true;
@@ -63,13 +66,15 @@ ShapeHitRecord shape_record(const Geometry& geometry, const Crossing<T>& crossin
     record.uv[0] = double(at.uv.u);
     record.uv[1] = double(at.uv.v);
     record.face_id = crossing.face_offset + crossing.face;
-    store(bounded ? offset_origin(p, at.point_error, at.normal) : epsilon_origin(p, at.normal, offsets), record.next_origin);
+    store(bounded ? offset_origin(p, at.point_error, at.normal) : epsilon_origin(p, at.normal, offsets),
+          record.next_origin);
     return record;
 }
 
 }  // namespace
 
-std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions) {
+std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
+                                      std::span<const Vec3f> directions) {
     std::vector<HitRecord> records(origins.size(), miss());
     for (std::size_t i = 0; i < origins.size(); ++i) {
         float scale;
@@ -80,7 +85,8 @@ std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec
     return records;
 }
 
-std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> targets) {
+std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
+                                   std::span<const Vec3f> targets) {
     std::vector<std::uint8_t> blocked(origins.size());
     for (std::size_t i = 0; i < origins.size(); ++i) {
         if (origins[i] == targets[i]) continue;
@@ -90,7 +96,8 @@ std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f>
 }
 
 template <class T>
-std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins, std::span<const Vec3d> directions, Offsets offsets) {
+std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
+                                            std::span<const Vec3d> directions, Offsets offsets) {
     Geometry geometry;
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
@@ -103,12 +110,15 @@ std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const 
         if (!crosses(primitive.bounds, ray, infinity<T>, &entry)) continue;
         Crossing<T> crossing = first_crossing(geometry, primitive, ray);
         crossing.t = maximum(crossing.t, entry);
-        if (crossing.hit && crossing.t < infinity<T>) records[i] = shape_record(geometry, crossing, ray, scale, offsets);
+        if (crossing.hit && crossing.t < infinity<T>)
+            records[i] = shape_record(geometry, crossing, ray, scale, offsets);
     }
     return records;
 }
 
-template std::vector<ShapeHitRecord> intersect_shape<float>(const Shape&, std::span<const Vec3d>, std::span<const Vec3d>, Offsets);
-template std::vector<ShapeHitRecord> intersect_shape<double>(const Shape&, std::span<const Vec3d>, std::span<const Vec3d>, Offsets);
+template std::vector<ShapeHitRecord> intersect_shape<float>(const Shape&, std::span<const Vec3d>,
+                                                            std::span<const Vec3d>, Offsets);
+template std::vector<ShapeHitRecord> intersect_shape<double>(const Shape&, std::span<const Vec3d>,
+                                                             std::span<const Vec3d>, Offsets);
 
 }  // namespace raybound

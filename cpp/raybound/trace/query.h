@@ -16,10 +16,12 @@ struct HitRecord {
 };
 
 // t is in units of each direction's length. Throws std::invalid_argument for a zero direction.
-std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions);
+std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
+                                      std::span<const Vec3f> directions);
 
 // Is there anything certainly between origin and target? Origins are taken as they are, nothing is offset.
-std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> targets);
+std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
+                                   std::span<const Vec3f> targets);
 
 // How an origin is moved off a surface: by the error bounds, or, to measure against, by a fixed or a scaled epsilon
 // (seeds/004).
@@ -35,6 +37,7 @@ struct ShapeHitRecord {
 
 // One shape alone, with the kernels of type T.
 template <class T>
-std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins, std::span<const Vec3d> directions, Offsets offsets);
+std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
+                                            std::span<const Vec3d> directions, Offsets offsets);
 
 }  // namespace raybound

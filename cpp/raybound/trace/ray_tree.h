@@ -1,5 +1,5 @@
-// Ray trees (thesis 4.2.1): what contributed to the radiance of a ray. The tracer records them through a policy, so that
-// plain rendering, with NoRecord, pays nothing.
+// Ray trees (thesis 4.2.1): what contributed to the radiance of a ray. The tracer records them through a policy, so
+// that plain rendering, with NoRecord, pays nothing.
 #pragma once
 
 #include <memory>

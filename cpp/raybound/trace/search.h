@@ -21,6 +21,7 @@ Nearest<T> closest_hit(const Snapshot& scene, const Ray<T>& ray, Acceleration ac
 
 // Something opaque lies certainly between the ray's origin and its end; `blocker` (may be null) is told which object.
 template <class T>
-bool is_blocked(const Snapshot& scene, const Ray<T>& ray, std::int32_t* blocker, Acceleration acceleration = Acceleration::bvh);
+bool is_blocked(const Snapshot& scene, const Ray<T>& ray, std::int32_t* blocker,
+                Acceleration acceleration = Acceleration::bvh);
 
 }  // namespace raybound

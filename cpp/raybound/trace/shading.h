@@ -33,8 +33,8 @@ inline T ward_specular(const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v, T n
 
 // rho_d (N.L) + rho_s specular (thesis eq. 4.1 and 4.2; Ward's 1/pi is folded into the light).
 template <class T>
-inline Vec3<T> reflectance(const Vec3<T>& diffuse, const Material& material, const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v,
-                           T n_dot_l, T n_dot_v) {
+inline Vec3<T> reflectance(const Vec3<T>& diffuse, const Material& material, const Vec3<T>& n, const Vec3<T>& l,
+                           const Vec3<T>& v, T n_dot_l, T n_dot_v) {
     Vec3<T> value = diffuse * n_dot_l;
     if (material.specular == Vec3f{}) return value;
     return value + Vec3<T>(material.specular) * ward_specular(n, l, v, n_dot_l, n_dot_v, T(material.roughness));

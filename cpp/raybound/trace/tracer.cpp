@@ -37,7 +37,8 @@ Vec3<T> Tracer<T>::radiance(const Ray<T>& ray, int depth, Record record, EyeSamp
     Vec3<T> value(scene_.background());
     T t = infinity<T>;
     if (nearest.hit) value = shade(ray, nearest, depth, record, &t);
-    const std::int32_t object = nearest.hit ? scene_.objects()[scene_.geometry().primitives[nearest.primitive].object].id : -1;
+    const std::int32_t object =
+        nearest.hit ? scene_.objects()[scene_.geometry().primitives[nearest.primitive].object].id : -1;
     if (first) first->t = t, first->object = object;
     if constexpr (Record::active) {
         record.node->origin = Vec3d(ray.origin);
@@ -82,7 +83,8 @@ Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
         LightVerdict verdict = !faces ? LightVerdict::behind : LightVerdict::outside_cone;
         std::int32_t blocker = -1;
         if (faces && shines) {
-            const Vec3<T> factor = saturate(reflectance(at.diffuse, at.material, at.normal, from.direction, at.view, n_dot_l, n_dot_v));
+            const Vec3<T> factor =
+                saturate(reflectance(at.diffuse, at.material, at.normal, from.direction, at.view, n_dot_l, n_dot_v));
             const bool weighs = Record::active || max_component(factor) > T(0);  // rays of weight zero are not traced
             const bool lit = weighs && is_lit(at, light, from.direction, &blocker);
             if (lit) sum = saturate(sum + from.irradiance * factor);
@@ -106,7 +108,8 @@ bool Tracer<T>::is_lit(const Shadable& at, const Light& light, const Vec3<T>& di
 // local + reflect L(R) + transmit L(T), in this order.
 template <class T>
 template <class Record>
-Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth, Record record) {
+Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth,
+                                 Record record) {
     const Material& material = at.material;
     Vec3<T> sum = local, reflect(material.reflect), transmit(material.transmit), through;
     if (max_component(transmit) > T(0)) {
@@ -121,7 +124,8 @@ Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const 
     }
     if (max_component(reflect) > T(0)) {
         ++counts_.reflected;
-        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, at.normal), reflected_direction(ray.direction, at.normal));
+        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, at.normal),
+                                     reflected_direction(ray.direction, at.normal));
         sum = saturate(sum + reflect * radiance(next, depth + 1, record.child(RayKind::reflected), nullptr));
     }
     if (max_component(transmit) > T(0)) {

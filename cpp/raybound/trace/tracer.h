@@ -27,7 +27,7 @@ struct TraceSettings {
 template <class T>
 struct EyeSample {
     Vec3<T> radiance;
-    T t;                 // along the ray; infinite for the background
+    T t;                  // along the ray; infinite for the background
     std::int32_t object;  // -1 for the background
 };
 
