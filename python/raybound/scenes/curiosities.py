@@ -14,12 +14,19 @@ from .palette import Palette
 
 def gems(scene: Scene, palette: Palette, centre: Point) -> None:
     """Six cut stones on little stands: boxes turned against each other within a ball."""
-    colours = ((0.55, 0.02, 0.06), (0.02, 0.34, 0.14), (0.04, 0.10, 0.50), (0.55, 0.33, 0.02), (0.34, 0.06, 0.42), (0.05, 0.40, 0.46))
+    colours = (
+        (0.55, 0.02, 0.06),
+        (0.02, 0.34, 0.14),
+        (0.04, 0.10, 0.50),
+        (0.55, 0.33, 0.02),
+        (0.34, 0.06, 0.42),
+        (0.05, 0.40, 0.46),
+    )
     for k, colour in enumerate(colours):
         foot = shifted(centre, 0.22 * (k % 2) - 0.11, 0.24 * (k // 2) - 0.24)
         put(scene, palette.dull_brass, turned(foot, [(-0.002, 0.045), (0.012, 0.045), (0.03, 0.02), (0.06, 0.03)]))
         stone = Material(colour, (0.45, 0.45, 0.45), roughness=0.06, reflect=0.10)
-        place = Transform.translate(*shifted(foot, dz=0.108)) @ Transform.rotate(17 * k)
+        place = Transform.translate(*shifted(foot, dz=0.115)) @ Transform.rotate(17 * k)
         scene.add(gem(0.056), stone, name=f"gem-{k}", transform=place)
 
 
@@ -31,15 +38,20 @@ def gem(half: float) -> Shape:
 
 
 def shells(scene: Scene, palette: Palette, centre: Point) -> None:
-    """Two sea snails: balls that shrink along a rising spiral."""
+    """Two sea snails: balls that shrink along a rising spiral, each whorl resting on the one before."""
     pearl, rose = palette.gem(0.72, 0.60, 0.50), palette.gem(0.66, 0.30, 0.26)
-    for place, material, size, hand in ((shifted(centre, -0.05, -0.16), pearl, 1.0, 1), (shifted(centre, 0.05, 0.20), rose, 0.85, -1)):
+    for place, material, size, hand in (
+        (shifted(centre, -0.05, -0.16), pearl, 1.0, 1),
+        (shifted(centre, 0.05, 0.20), rose, 0.85, -1),
+    ):
         balls = []
         for k in range(30):
             shrink = 0.925**k
-            turn, reach = hand * 0.50 * k, 0.10 * size * shrink
-            z = (0.062 + 0.30 * (1 - shrink)) * size
-            balls.append(Sphere(shifted(place, reach * math.cos(turn), reach * math.sin(turn), z), 0.062 * size * shrink))
+            turn, reach = hand * 0.50 * k, 0.060 * size * shrink
+            z = (0.061 + 0.120 * (1 - shrink)) * size
+            balls.append(
+                Sphere(shifted(place, reach * math.cos(turn), reach * math.sin(turn), z), 0.062 * size * shrink)
+            )
         put(scene, material, balls)
 
 
@@ -51,18 +63,18 @@ def necklace(scene: Scene, palette: Palette, centre: Point) -> None:
     for k in range(count):
         a = 2 * math.pi * k / count
         z = 0.17 + 0.075 * (1 + math.cos(a))  # lowest toward the front, -x
-        radius = 0.14 - 0.09 * (z - 0.02) / 0.34 + 0.012
         size = 0.0135 - 0.0035 * math.cos(a)
+        radius = 0.14 - 0.09 * (z - 0.02) / 0.34 + 0.9 * size
         spot = shifted(centre, radius * math.cos(a), radius * math.sin(a), z)
         scene.add(Sphere(spot, size), small if k % 5 == 0 else bead)
 
 
 def molecule(scene: Scene, palette: Palette, centre: Point) -> None:
-    """Cubane on a rod: eight carbons, eight hydrogens and the bonds between, turned to stand on a corner."""
-    put(scene, palette.dull_brass, turned(centre, [(-0.002, 0.10), (0.02, 0.10), (0.03, 0.012), (0.10, 0.012)]))
+    """Cubane: eight carbons, eight hydrogens and the bonds between; it stands on one hydrogen, held by a rod."""
+    put(scene, palette.dull_brass, turned(centre, [(-0.002, 0.10), (0.02, 0.10), (0.03, 0.012), (0.09, 0.012)]))
     edge = 0.085
     tilt = math.degrees(math.acos(1 / math.sqrt(3)))
-    turn = Transform.translate(*shifted(centre, dz=0.285)) @ Transform.rotate(tilt, axis=(-1, 1, 0))
+    turn = Transform.translate(*shifted(centre, dz=0.365)) @ Transform.rotate(tilt, axis=(-1, 1, 0))
     carbon, hydrogen = palette.gem(0.06, 0.06, 0.07), palette.gem(0.70, 0.10, 0.05)
     corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
     for x, y, z in corners:
@@ -83,7 +95,15 @@ def vases(scene: Scene, palette: Palette, centre: Point) -> None:
         [(0.0, 0.04), (0.10, 0.085), (0.16, 0.085), (0.20, 0.04), (0.22, 0.05)],
         [(0.0, 0.06), (0.03, 0.03), (0.12, 0.07), (0.30, 0.045), (0.34, 0.06)],
     )
-    glazes = ((0.04, 0.20, 0.36), (0.50, 0.14, 0.05), (0.16, 0.38, 0.26), (0.60, 0.45, 0.14), (0.32, 0.10, 0.26), (0.62, 0.58, 0.50), (0.05, 0.30, 0.34))
+    glazes = (
+        (0.04, 0.20, 0.36),
+        (0.50, 0.14, 0.05),
+        (0.16, 0.38, 0.26),
+        (0.60, 0.45, 0.14),
+        (0.32, 0.10, 0.26),
+        (0.62, 0.58, 0.50),
+        (0.05, 0.30, 0.34),
+    )
     for k, glaze in enumerate(glazes):
         foot = shifted(centre, 0.24 * (k - 3), 0.16 * (-1) ** k, -0.002)
         put(scene, palette.gem(*glaze), turned(foot, outlines[k % 3]))

@@ -41,11 +41,14 @@ def bench(scene: Scene, palette: Palette, place: Transform, name: str) -> None:
     for x in (-half + 0.08, 0.0, half - 0.08):
         for y in (-depth + 0.05, depth - 0.05):
             wood += turned((x, y, -0.002), [(0.0, 0.024), (0.10, 0.038), (0.30, 0.030), (0.365, 0.045)])
-    wood += [Cylinder((-half + 0.08, y, 0.10), (half - 0.08, y, 0.10), radius=0.014) for y in (0.05 - depth, depth - 0.05)]
+    wood += [
+        Cylinder((-half + 0.08, y, 0.10), (half - 0.08, y, 0.10), radius=0.014) for y in (0.05 - depth, depth - 0.05)
+    ]
     for shape in wood:
         scene.add(shape, palette.walnut, transform=place)
     for x in (-0.5, 0.0, 0.5):
-        scene.add(Sphere((x, 0.0, 0.546 - 0.02 * abs(x)), 0.016), palette.gilt, transform=place)
+        level = math.sqrt(5.77**2 - x * x) - 5.22  # of the cushion's ridge, into which the buttons are drawn
+        scene.add(Sphere((x, 0.0, level - 0.008), 0.018), palette.gilt, transform=place)
 
 
 def rope_line(scene: Scene, palette: Palette, wall: Wall, places: list[float]) -> None:

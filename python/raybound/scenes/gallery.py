@@ -94,9 +94,7 @@ def moulding(
     inside_s, inside_z = (s[0] + cover, s[1] - cover), (z[0] + cover, z[1] - cover)
     for edge, hand in ((inside_z[0], -1), (inside_z[1], 1)):
         ends = sorted((edge, edge + hand * width))
-        scene.add(
-            wall.box((inside_s[0] - width, inside_s[1] + width), (-0.01, depth), (ends[0], ends[1])), material
-        )
+        scene.add(wall.box((inside_s[0] - width, inside_s[1] + width), (-0.01, depth), (ends[0], ends[1])), material)
     for edge, hand in ((inside_s[0], -1), (inside_s[1], 1)):
         ends = sorted((edge, edge + hand * (width - 0.002)))
         scene.add(

@@ -73,10 +73,10 @@ def horse(top: Point, ahead: float) -> Shape:
 
 
 def abacus(scene: Scene, palette: Palette, centre: Point) -> None:
-    """A counting frame that leans back on a stand, showing a number: nine rods, two beads above the bar and five below."""
+    """A counting frame that leans back on a stand, showing a number: nine rods, two beads above and five below."""
     wires, pitch, low, bar, high = 9, 0.066, 0.03, 0.235, 0.345
     half = (wires + 1) * pitch / 2
-    lean = Transform.translate(*shifted(centre, dy=-0.12, dz=0.012)) @ Transform.rotate(-32, axis=(1, 0, 0))
+    lean = Transform.translate(*shifted(centre, dy=-0.12, dz=0.008)) @ Transform.rotate(-32, axis=(1, 0, 0))
     frame: list[Shape] = [Box((-half, -0.02, z - 0.014), (half, 0.02, z + 0.014)) for z in (low - 0.014, high + 0.014)]
     frame += [Box((x - 0.012, -0.018, low - 0.02), (x + 0.012, 0.018, high + 0.02)) for x in (-half, half)]
     frame += [Box((-half, -0.012, bar - 0.007), (half, 0.012, bar + 0.007))]
@@ -90,5 +90,6 @@ def abacus(scene: Scene, palette: Palette, centre: Point) -> None:
         put(scene, red, (Sphere((x, 0, z), 0.0128).transformed(lean) for z in heights))
         upper = [bar + 0.022 + 0.026 * j if j < fives else high - 0.014 - 0.026 * (1 - j) for j in range(2)]
         put(scene, blue, (Sphere((x, 0, z), 0.0128).transformed(lean) for z in upper))
-    prop = Transform.translate(*shifted(centre, dy=0.17)) @ Transform.rotate(28, axis=(1, 0, 0))
-    scene.add(Box((-0.6 * half, -0.012, 0.004), (0.6 * half, 0.012, 0.27)).transformed(prop), palette.dark_wood)
+    # The prop stands behind on its lower edge and ends within the upper rail, clear of the beads.
+    prop = Transform.translate(*shifted(centre, dy=0.212)) @ Transform.rotate(22, axis=(1, 0, 0))
+    scene.add(Box((-0.6 * half, -0.012, 0.003), (0.6 * half, 0.012, 0.335)).transformed(prop), palette.dark_wood)

@@ -59,8 +59,8 @@ def medallion(scene: Scene, palette: Palette) -> None:
     light = palette.marble.replace(diffuse=(0.72, 0.66, 0.54), **polish)
     rose = palette.marble.replace(diffuse=(0.40, 0.16, 0.11), **polish)
     ochre = palette.marble.replace(diffuse=(0.62, 0.40, 0.14), **polish)
-    for level, (radius, material) in enumerate(((1.95, dark), (1.85, light), (1.55, dark), (1.48, rose))):
-        scene.add(Disk((x, y, 0.002 + 0.002 * level), (0, 0, 1), radius=radius), material)
+    for layer, (radius, material) in enumerate(((1.95, dark), (1.85, light), (1.55, dark), (1.48, rose))):
+        scene.add(Disk((x, y, 0.002 + 0.002 * layer), (0, 0, 1), radius=radius), material)
     for rank, (reach, count, phase) in enumerate(((1.0, 8, 22.5), (1.46, 8, 0.0))):
         level = 0.011 + 0.003 * rank
         tips = list(ring((x, y, level), reach, count, phase))
@@ -103,7 +103,7 @@ def panelling(scene: Scene, palette: Palette, wall: Wall, span: tuple[float, flo
 
 
 def entablature(scene: Scene, palette: Palette, wall: Wall) -> None:
-    """Architrave, frieze and a cornice in three steps, around the whole hall."""
+    """Architrave, frieze and a cornice in three steps, around the whole hall; above it a cove hides the wallpaper."""
     # Walls along x overlap those along y in the corners; a little height apart keeps faces from coinciding.
     lift = 0.003 if wall in (FAR, NEAR) else 0.0
     span = (-0.1, wall.length + 0.1)
@@ -111,6 +111,8 @@ def entablature(scene: Scene, palette: Palette, wall: Wall) -> None:
     for z0, z1, depth in steps:
         shade = palette.cream if depth == 0.58 else palette.plaster
         scene.add(wall.box(span, (-0.05, depth - lift), (z0 + lift, z1 + lift)), shade)
+    for z0, z1, depth in ((5.89, 5.97, 0.20), (5.965, HEIGHT + 0.02, 0.12)):
+        scene.add(wall.box(span, (-0.05, depth - lift), (z0 + lift, z1 + lift)), palette.plaster)
     scene.add(wall.box(span, (-0.05, 0.665 - lift), (5.74 + lift, 5.765 + lift)), palette.gilt)
 
 

@@ -46,7 +46,16 @@ def picture_spot(scene: Scene, name: str, strength: float) -> None:
 def chandelier(scene: Scene, palette: Palette) -> None:
     """Two tiers of arms around a turned stem, and strings of crystal beads."""
     x, y, _ = CENTRE
-    stem = [(3.86, 0.03), (3.94, 0.10), (4.02, 0.05), (4.20, 0.05), (4.34, 0.13), (4.46, 0.05), (4.86, 0.035), (5.0, 0.09)]
+    stem = [
+        (3.86, 0.03),
+        (3.94, 0.10),
+        (4.02, 0.05),
+        (4.20, 0.05),
+        (4.34, 0.13),
+        (4.46, 0.05),
+        (4.86, 0.035),
+        (5.0, 0.09),
+    ]
     put(scene, palette.dull_brass, turned((x, y, 0.0), [*stem, (5.08, 0.03)]))
     scene.add(Sphere((x, y, 3.83), 0.07), palette.glass)
     put(scene, palette.dull_brass, [Cylinder((x, y, 5.05), (x, y, HEIGHT + 0.01), radius=0.018)])

@@ -26,7 +26,7 @@ def build_sculpture(scene: Scene, palette: Palette) -> None:
 
 
 def stand(scene: Scene, palette: Palette) -> None:
-    """Four mirrors between two slabs of green marble; they lean back, so that they show the walls and their pictures."""
+    """Four mirrors between two slabs of green marble; they lean back, so that they show walls and pictures."""
     x, y, _ = PLACE
     turn = Transform.translate(x, y, 0) @ Transform.rotate(TURN)
     low, high, foot, head = 0.10, 0.70, 0.92, 0.79
@@ -51,7 +51,7 @@ def bottom() -> Shape:
 
 
 def middle() -> Shape:
-    """Three crossed bars with balls at their ends, around a hub that is itself an intersection."""
+    """Three crossed lenses, each what two balls have in common, with a hub and a small ball at either end."""
     reach, radius, centre = 1.10, 1.24, Transform.translate(0, 0, 1.50)
     parts: list[Shape] = [Sphere((0, 0, 0), 0.24)]
     for x, y, z in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 def three_spheres() -> Scene:
     """A shiny, a mirror and a glass sphere on a chequered floor under an evening sky."""
-    scene = Scene(ambient=(0.14, 0.15, 0.18), background=(0.065, 0.10, 0.19))
+    scene = Scene(ambient=(0.14, 0.15, 0.18), background=(0.022, 0.036, 0.075))
     squares = np.kron(np.array([[0, 1], [1, 0]]), np.ones((64, 64)))[..., None]
     tiles = np.array([0.62, 0.56, 0.46]) * squares + np.array([0.10, 0.13, 0.16]) * (1 - squares)
     half = 12.0
@@ -33,7 +33,7 @@ def three_spheres() -> Scene:
     scene.add(Sphere((0.95, -0.95, 0.75), 0.75), glass, name="glass")
     scene.add_light(DirectionalLight((0.55, 0.75, -0.85), (0.75, 0.68, 0.56)), name="sun")
     scene.add_light(PointLight((-4.0, -2.5, 5.0), (0.32, 0.36, 0.45)), name="lamp")
-    scene.camera = Camera((-1.3, -6.2, 3.4), (-0.05, 0.30, 0.72), fov=36)
+    scene.camera = Camera((-1.3, -6.1, 3.75), (-0.05, 0.30, 0.70), fov=36)
     return scene
 
 
@@ -85,7 +85,7 @@ def nine_directions() -> Array:
 def turns_from_z(directions: Array) -> Array:
     """The least rotation that takes the z axis to each of the unit directions (n, 3): (n, 3, 3)."""
     x, y, z = directions.T
-    down = z < -1 + 1e-9  # here any half turn would do: SPD takes the one about the x axis
+    down = z < -1 + 1e-9  # here any half turn would do: SPD takes the one about the y axis
     share = 1 / np.where(down, 1.0, 1 + z)
     rows = [[1 - x * x * share, -x * y * share, x], [-x * y * share, 1 - y * y * share, y], [-x, -y, z]]
-    return np.where(down[:, None, None], np.diag([1.0, -1.0, -1.0]), np.moveaxis(np.array(rows), -1, 0))
+    return np.where(down[:, None, None], np.diag([-1.0, 1.0, -1.0]), np.moveaxis(np.array(rows), -1, 0))

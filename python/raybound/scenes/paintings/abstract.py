@@ -52,8 +52,8 @@ def grid() -> Canvas:
     c.image *= 0.985 + 0.03 * fractal(c.x, c.y, (3, 9), 5, 2)[..., None]
     bars = [
         ((0.22, 0.0), (0.22, 1.0), 0.034), ((0.0, 0.50), (0.8, 0.50), 0.034), ((0.58, 0.0), (0.58, 0.50), 0.026),
-        ((0.0, 0.24), (0.22, 0.24), 0.034), ((0.22, 0.14), (0.8, 0.14), 0.026), ((0.58, 0.31), (0.8, 0.31), 0.02),
-        ((-0.1, 0.80), (0.19, 0.80), 0.044),
+        ((0.0, 0.24), (0.21, 0.24), 0.034), ((0.22, 0.14), (0.8, 0.14), 0.026), ((0.58, 0.31), (0.8, 0.31), 0.02),
+        ((-0.1, 0.80), (0.21, 0.80), 0.044),
     ]  # fmt: skip
     for start, end, width in bars:
         c.stroke(c.line([start, end]), width, "17161a")
@@ -102,10 +102,10 @@ def fields() -> Canvas:
         ragged = 0.02 * (fractal(c.x, c.y, (7, 7), int(100 * y), 3) - 0.5)
         veil = fractal(c.x, c.y, (3, 3), 7 + int(100 * y), 2)
         depth = ((c.x - 0.375) / half[0]) ** 4 + ((c.y - y) / half[1]) ** 4
-        c.lay(
-            ramp(depth + 0.7 * (veil - 0.5), (0.0, inner), (1.0, outer)),
-            smoothstep(0.022, -0.03, c.box(0.375, y, half) + ragged),
-        )
+        # The product of two fades has round corners and no mitre lines.
+        across = smoothstep(0.022, -0.03, np.abs(c.x - 0.375) - half[0] + ragged)
+        upward = smoothstep(0.022, -0.03, np.abs(c.y - y) - half[1] + ragged)
+        c.lay(ramp(depth + 0.7 * (veil - 0.5), (0.0, inner), (1.0, outer)), across * upward)
     return c
 
 

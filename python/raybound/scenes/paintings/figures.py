@@ -151,8 +151,8 @@ def vase(c: Canvas, axis: float) -> None:
     scale = 1 / np.sqrt(1 + slope * slope)
     glaze = shade(nx * scale, -slope * scale, np.sqrt(1 - nx * nx) * scale, "10203f", "2f5f9e", "8fc0dc")
     for level in (0.33, 0.48):
-        glaze = mix(glaze, shade(nx * scale, -slope * scale, np.sqrt(1 - nx * nx) * scale, "4a3a20", "d8c48a", "fff6d8"),
-                    smoothstep(0.016, 0.012, np.abs(c.y - level + 0.02 * np.sqrt(1 - nx * nx))))  # fmt: skip
+        band = shade(nx * scale, -slope * scale, np.sqrt(1 - nx * nx) * scale, "4a3a20", "d8c48a", "fff6d8")
+        glaze = mix(glaze, band, smoothstep(0.016, 0.012, np.abs(c.y - level + 0.02 * np.sqrt(1 - nx * nx))))
     sides = [np.column_stack([axis + hand * fine[:, 1], fine[:, 0]])[::hand] for hand in (1, -1)]
     c.fill(c.polygon(np.vstack(sides)), glaze)
     c.fill(np.hypot((c.x - axis) / 0.083, (c.y - 0.713) / 0.016) * 0.02 - 0.02, "0f1c33")

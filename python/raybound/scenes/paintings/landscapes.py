@@ -30,7 +30,7 @@ def mist() -> Canvas:
     for k in range(9):
         y, half = 0.16 + 0.032 * k, 0.085 * (1 - k / 9.5)
         c.fill(c.polygon([(trunk_x - half, y), (trunk_x + half, y), (trunk_x, y + 0.075)]), "0c1a26")
-    c.fill(c.box(trunk_x, 0.10, (0.008, 0.09)), "0c1a26")
+    c.fill(c.box(trunk_x, 0.14, (0.008, 0.05)), "0c1a26")
     return c
 
 
@@ -128,6 +128,8 @@ def birches() -> Canvas:
     c = Canvas(300, 400)
     c.lay(ramp(c.y, (0.0, "5c3a1e"), (0.25, "b8702a"), (0.6, "e3a63c"), (1.0, "f3cf6e")))
     rng = np.random.default_rng(12)
+    litter = fractal(c.x, c.y, (24, 40), 77, 2)
+    autumn = ramp(litter, (0.25, "6b3517"), (0.5, "b4652a"), (0.75, "e0a040"))
     for depth in range(3):
         leaves = noise(c.x, c.y, (26 - 5 * depth, 26 - 5 * depth), 30 + depth)
         paint = ("d9852b", "c8591f", "f4d35e")[depth]
@@ -140,8 +142,7 @@ def birches() -> Canvas:
             marks = noise(c.x * 0.7 + x, c.y, (6, 46), int(1000 * x)) * (0.6 + 0.4 * np.abs(side))
             bark = mix(bark, colour("2b2226"), smoothstep(0.62, 0.72, marks))
             bark = mix(bark, colour("d99a4a"), (0.55, 0.25, 0.0)[depth])
-            c.fill(np.maximum(np.abs(c.x - axis) - width / 2, 0.09 + 0.03 * (2 - depth) - c.y), bark)
-    floor = c.y - 0.15 - 0.03 * noise(c.x, c.y, (5, 2), 4)
-    litter = fractal(c.x, c.y, (24, 40), 77, 2)
-    c.lay(ramp(litter, (0.25, "6b3517"), (0.5, "b4652a"), (0.75, "e0a040")), 0.9 * smoothstep(0.02, -0.05, floor))
+            c.fill(np.maximum(np.abs(c.x - axis) - width / 2, -c.y), bark)
+        ground = c.y - (0.20, 0.155, 0.10)[depth] - 0.05 * (litter - 0.5) - 0.03 * noise(c.x, c.y, (5, 2), 4)
+        c.lay(autumn * (0.82, 0.92, 1.0)[depth], smoothstep(0.006, -0.006, ground))  # hides the ends of the trunks
     return c

@@ -72,9 +72,9 @@ def wood() -> Canvas:
     """Walnut with the grain running along u."""
     c = Canvas(256, 256)
     bend = fractal(c.x, c.y, (2, 3), 60, 3)
-    rings = np.sin(2 * np.pi * (12 * c.y + 2.6 * bend))
-    fine = noise(c.x, c.y, (4, 90), 61)
-    c.lay(ramp(0.5 + 0.20 * rings + 0.5 * (fine - 0.5), (0.0, "3a2012"), (0.5, "5c351c"), (1.0, "7e4e2b")))
+    rings = np.sin(2 * np.pi * (12 * c.y + 1.6 * bend))
+    fine = noise(c.x, c.y, (3, 64), 61)
+    c.lay(ramp(0.5 + 0.14 * rings + 0.32 * (fine - 0.5), (0.0, "3a2012"), (0.5, "5c351c"), (1.0, "7e4e2b")))
     return c
 
 
@@ -86,7 +86,7 @@ def wallpaper() -> Canvas:
         u = np.abs((c.x + dx) % 1 - 0.5)
         v = (c.y + dy) % 1 - 0.5
         frame = np.abs(u - 0.25 * np.cos(np.pi * v) ** 2 * smoothstep(0.5, 0.38, np.abs(v))) - 0.010
-        c.lay("8da391", 0.9 * smoothstep(0.006, -0.004, np.maximum(frame, np.abs(v) - 0.47)))
+        c.lay("8da391", 0.9 * smoothstep(0.006, -0.004, frame))
         for k in range(4):
             a = np.radians((90, 55, 22, -12)[k])
             along = u * np.cos(a) + (v + 0.08) * np.sin(a)
@@ -133,13 +133,13 @@ def carpet() -> Canvas:
 
 
 def chessboard() -> Canvas:
-    """Eight by eight squares of maple and walnut within a walnut edge."""
+    """Eight by eight squares of maple and walnut within an edge; White sits at the right (u = 1), so a1 is dark."""
     c = Canvas(144, 144, "3a2213")
     u, v = (c.x - 0.055) / 0.89 * 8, (c.y - 0.055) / 0.89 * 8
     inside = np.maximum(np.abs(c.x - 0.5), np.abs(c.y - 0.5)) - 0.445
     grain = noise(c.x, c.y, (9, 60), 8)
     light, dark = ramp(grain, (0.0, "d8b480"), (1.0, "ecd2a4")), ramp(grain, (0.0, "5a3319"), (1.0, "764724"))
     cells = np.clip(0.5 + np.sin(np.pi * u) * np.sin(np.pi * v) * 12, 0, 1)
-    c.fill(inside, mix(light, dark, cells))
+    c.fill(inside, mix(dark, light, cells))
     c.stroke(inside - 0.012, 0.008, "c9a05a")
     return c
