@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cstring>
 #include <span>
 #include <stdexcept>
 
@@ -49,7 +50,9 @@ py::array_t<T> from_vectors(const std::vector<Vec3<T>>& v) {
 
 template <class T>
 py::array_t<T> from_vector(const std::vector<T>& v) {
-    return py::array_t<T>(py::ssize_t(v.size()), v.data());
+    py::array_t<T> a(py::ssize_t(v.size()));
+    if (!v.empty()) std::memcpy(a.mutable_data(), v.data(), v.size() * sizeof(T));  // with the padding of records
+    return a;
 }
 
 // A 4x4 matrix; throws in the name of `who` if it is not affine.

@@ -82,7 +82,8 @@ inline float atan2(float y, float x) { return static_cast<float>(elementary::ata
 // acos(x) = atan2(sqrt((1 - x)(1 + x)), x) for |x| <= 1, which does not cancel near 1; NaN outside.
 inline float acos(float x) {
     const double s = (1.0 - double(x)) * (1.0 + double(x));
-    return static_cast<float>(elementary::atan2_kernel(std::sqrt(s), x));
+    return s >= 0 ? static_cast<float>(elementary::atan2_kernel(std::sqrt(s), x))
+                  : std::numeric_limits<float>::quiet_NaN();
 }
 
 // The reference: double by the C library, accurate to 2^-52, far below what a float picture can show.

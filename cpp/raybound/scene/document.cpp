@@ -16,7 +16,7 @@ ObjectRecord checked_object(std::int32_t id, ShapePointer shape, MaterialPointer
     add_primitive(trial, 0, *shape, placed);
     const Box& box = trial.primitives.back().bounds;
     const float reach = maximum(max_component(absolute(box.lower)), max_component(absolute(box.upper)));
-    if (!(reach <= 2 * largest_coordinate) || box.is_empty())
+    if (!(reach <= 2 * largest_coordinate))
         throw std::invalid_argument("Scene: shape must keep its coordinates within 2**60 when placed, got " +
                                     format(reach));
     return {id, std::move(shape), std::move(material), placed};
@@ -89,14 +89,14 @@ void Document::remove_light(std::int32_t id) {
 }
 
 void Document::set_ambient(const Vec3f& ambient) {
-    require_finite("Scene", "ambient", ambient);
+    require_colour("Scene", "ambient", ambient);
     const std::scoped_lock lock(mutex_);
     state_.content.ambient = ambient;
     edited();
 }
 
 void Document::set_background(const Vec3f& background) {
-    require_finite("Scene", "background", background);
+    require_colour("Scene", "background", background);
     const std::scoped_lock lock(mutex_);
     state_.content.background = background;
     edited();

@@ -10,21 +10,21 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
 
+Vec3d unit_direction(const char* object, const Vec3f& direction) {
+    require_finite(object, "direction", direction);
+    const double size = length(Vec3d(direction));
+    if (!(size >= double(least_size)))
+        refuse(std::string(object) + ": direction must not be zero, got " + format(direction));
+    return Vec3d(direction) * (1 / size);
+}
+
+}  // namespace
+
 void require_colour(const char* object, const char* argument, const Vec3f& c) {
     require_finite(object, argument, c);
     if (!(c.x >= 0 && c.y >= 0 && c.z >= 0))
         refuse(std::string(object) + ": " + argument + " must be >= 0, got " + format(c));
 }
-
-Vec3f unit_direction(const char* object, const Vec3f& direction) {
-    require_finite(object, "direction", direction);
-    const double size = length(Vec3d(direction));
-    if (!(size >= double(least_size)))
-        refuse(std::string(object) + ": direction must not be zero, got " + format(direction));
-    return Vec3f(Vec3d(direction) * (1 / size));
-}
-
-}  // namespace
 
 MaterialPointer make_material(const Material& m) {
     require_colour("Material", "diffuse", m.diffuse);
@@ -70,7 +70,8 @@ LightPointer make_spot_light(const Vec3f& position, const Vec3f& direction, floa
     light.position = position;
     light.direction = unit_direction("SpotLight", direction);
     light.intensity = intensity;
-    light.cos_cutoff = float(std::cos(double(cutoff) * (elementary::pi / 180)));
+    // At 180 degrees every direction is inside, one whose cosine rounds below -1 too.
+    light.cos_cutoff = cutoff == 180 ? -2 : std::cos(double(cutoff) * (elementary::pi / 180));
     light.falloff = falloff;
     return std::make_shared<const Light>(light);
 }

@@ -13,6 +13,9 @@ struct Material {
 };
 using MaterialPointer = std::shared_ptr<const Material>;
 
+// Colours are finite and not negative; throws std::invalid_argument that names object and argument.
+void require_colour(const char* object, const char* argument, const Vec3f& colour);
+
 // Throws std::invalid_argument that names the argument.
 MaterialPointer make_material(const Material& material);
 
@@ -20,9 +23,10 @@ enum class LightKind : std::uint8_t { directional, point, spot };
 
 struct Light {
     LightKind kind = LightKind::point;
-    Vec3f position, direction;  // direction: a unit vector, the way the light travels
-    Vec3f intensity;            // radiance for directional lights
-    float cos_cutoff = -1;
+    Vec3f position;
+    Vec3d direction;  // a unit vector, the way the light travels
+    Vec3f intensity;  // radiance for directional lights
+    double cos_cutoff = -1;
     bool falloff = false;
 };
 using LightPointer = std::shared_ptr<const Light>;

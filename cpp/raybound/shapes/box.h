@@ -7,11 +7,9 @@ namespace raybound {
 
 template <class T>
 inline Span<T> box_span(const LocalRay<T>& ray, const Vec3<T>& lower, const Vec3<T>& upper) {
-    const Vec3<T>&f = ray.origin, &d = ray.direction, &r = ray.reciprocal;
-    const T band = ray.origin_error;
-    const Span<T> x = slab_span(f.x, d.x, r.x, lower.x, upper.x, band, 0);
-    const Span<T> y = slab_span(f.y, d.y, r.y, lower.y, upper.y, band, 2);
-    const Span<T> z = slab_span(f.z, d.z, r.z, lower.z, upper.z, band, 4);
+    const Span<T> x = slab_span(ray, 0, lower.x, upper.x, 0);
+    const Span<T> y = slab_span(ray, 1, lower.y, upper.y, 2);
+    const Span<T> z = slab_span(ray, 2, lower.z, upper.z, 4);
     return clip(clip(x, y), z);
 }
 
@@ -25,8 +23,8 @@ inline Surface<T> box_surface(const Vec3<T>& y, int face, const Vec3<T>& lower, 
 // Each face carries [0, 1]^2, seen from outside with u to the right and v up (z for the sides, y for top and bottom).
 template <class T>
 inline UV<T> box_uv(const Vec3<T>& y, int face, const Vec3<T>& lower, const Vec3<T>& upper) {
-    const Vec3<T> s{(y.x - lower.x) / (upper.x - lower.x), (y.y - lower.y) / (upper.y - lower.y),
-                    (y.z - lower.z) / (upper.z - lower.z)};
+    const Vec3<T> size = upper - lower, along = y - lower;
+    const Vec3<T> s{unit_clamp(along.x / size.x), unit_clamp(along.y / size.y), unit_clamp(along.z / size.z)};
     switch (face) {
         case 0:
             return {T(1) - s.y, s.z};

@@ -28,9 +28,11 @@ inline Quadratic<T> cone_quadratic(const LocalRay<T>& ray, T radius, T slope) {
     q.a = d.x * d.x + d.y * d.y - dw * dw;
     q.b = f.x * d.x + f.y * d.y - fw * dw;
     q.c = cone_form(f, radius, slope, ray.origin_error);
-    q.discriminant = mx * mx + my * my - mz * mz;
     q.b_band = T(2) * dot_band(abs(f.x) + abs(f.y) + reach, abs(d.x) + abs(d.y) + abs(dw), ray.origin_error,
                                ray.direction_error);
+    const T sides = mx * mx + my * my;
+    q.discriminant =
+        discriminant_form(sides, gamma<T>(5) * sides, mz * mz, abs(mx) + abs(my) + abs(mz), T(2) * q.b_band);
     return q;
 }
 
@@ -67,8 +69,8 @@ inline Surface<T> cone_surface(const Vec3<T>& y, const Vec3<T>& d, int face, T r
 }
 
 template <class T>
-inline UV<T> cone_uv(const Vec3<T>& y, int face, T radius, T slope) {
-    if (face == 2) return disk_uv(y.x, y.y, maximum(radius - slope * radius, T(0x1p-100)));
+inline UV<T> cone_uv(const Vec3<T>& y, int face, T radius, T top_radius) {
+    if (face == 2) return disk_uv(y.x, y.y, top_radius);
     return cylinder_uv(y, face, radius);
 }
 

@@ -29,26 +29,25 @@ struct Interval {
 // curvature k the nearest root is within 2 r / |s| where the roots are real, and within sqrt(r / |k|) always, since the
 // product of the distances to both roots is |F(t) / k| (derivation D3).
 template <class T>
-inline T root_error(const Surface<T>& surface, const Vec3<T>& direction) {
-    const T residual = abs(surface.form.value) + surface.form.band;
-    const T slope = abs(dot(surface.gradient, direction)), curvature = abs(surface.curvature);
-    const T by_slope = T(2) * residual / slope, by_curvature = sqrt(residual / curvature);
+inline T root_error(T residual, T slope, T curvature) {
+    const T by_slope = T(2) * residual / abs(slope), by_curvature = sqrt(residual / abs(curvature));
     const T bound = select(by_curvature < by_slope, by_curvature, by_slope);
     return select(residual > T(0), bound, T(0));
 }
 
+// The same for a crossing found by the kernel: the residual is F where the crossing is, its band, the rounding of that
+// point, and what the leaf's own surface may be off.
 template <class T>
 inline T boundary_error(const Geometry& geometry, const Leaf& leaf, int face, T t, const Ray<T>& ray) {
     if (!(abs(t) < infinity<T>)) return T(0);
-    const Vec3<T> p = ray.origin + ray.direction * t;
+    const Vec3<T> way = ray.direction * t, p = ray.origin + way;
     const Surface<T> surface = leaf_surface(geometry, leaf, face, p, ray.direction);
-    const T moved = gamma<T>(3) * dot(absolute(surface.gradient), absolute(ray.origin) + absolute(ray.direction * t));
-    const T slope = abs(dot(surface.gradient, ray.direction));
-    return root_error(surface, ray.direction) + select(slope > T(0), moved / slope, T(0));
+    const T rounding = gamma<T>(3) * dot(absolute(surface.gradient), absolute(ray.origin) + absolute(way));
+    const T residual = abs(surface.form.value) + surface.form.band + rounding;
+    return root_error(residual, dot(surface.gradient, ray.direction), surface.curvature);
 }
 
-// The intervals of an expression, appended to `stack` in order of t; returns whether some leaf could not tell on which
-// side of its surface the origin is.
+// The intervals of an expression along a ray, in order of t.
 template <class T>
 class CsgEvaluation {
   public:
@@ -57,7 +56,6 @@ class CsgEvaluation {
     CsgEvaluation& operator=(const CsgEvaluation&) = delete;
 
     std::span<const Interval<T>> intervals() const { return stack_; }
-    bool unsure() const { return unsure_; }
 
     void evaluate(std::uint32_t index) {
         const CsgNode& node = geometry_.csg_nodes[index];
@@ -75,7 +73,6 @@ class CsgEvaluation {
     void push_leaf(std::uint32_t index, const CsgNode& node) {
         const Leaf& leaf = geometry_.leaves[node.first];
         const Span<T> span = leaf_span(geometry_, leaf, ray_);
-        unsure_ = unsure_ || span.unsure;
         if (!span.hit) return;
         stack_.push_back({{span.t_in, boundary_error(geometry_, leaf, span.face_in, span.t_in, ray_), index,
                            span.face_in, span.in_ahead},
@@ -129,7 +126,6 @@ class CsgEvaluation {
     alignas(Interval<T>) std::array<std::byte, 64 * sizeof(Interval<T>)> buffer_;
     std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
     std::pmr::vector<Interval<T>> stack_{&memory_};
-    bool unsure_ = false;
 };
 
 }  // namespace raybound

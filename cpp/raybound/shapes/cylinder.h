@@ -21,8 +21,10 @@ inline Quadratic<T> cylinder_quadratic(const LocalRay<T>& ray, T radius) {
     q.a = d.x * d.x + d.y * d.y;
     q.b = f.x * d.x + f.y * d.y;
     q.c = cylinder_form(f, radius, ray.origin_error);
-    q.discriminant = radius * radius * q.a - moment * moment;
     q.b_band = dot_band(abs(f.x) + abs(f.y), abs(d.x) + abs(d.y), ray.origin_error, ray.direction_error);
+    const T r2 = radius * radius, d_norm = abs(d.x) + abs(d.y);
+    q.discriminant = discriminant_form(r2 * q.a, r2 * square_band(d_norm, q.a, ray.direction_error), moment * moment,
+                                       abs(moment), T(2) * q.b_band);
     return q;
 }
 
@@ -46,7 +48,7 @@ inline Span<T> cylinder_side_span(const LocalRay<T>& ray, T radius) {
 
 template <class T>
 inline Span<T> cap_span(const LocalRay<T>& ray, T height) {
-    return slab_span(ray.origin.z, ray.direction.z, ray.reciprocal.z, T(0), height, ray.origin_error, 1);
+    return slab_span(ray, 2, T(0), height, 1);
 }
 
 template <class T>
@@ -68,7 +70,7 @@ inline Surface<T> cylinder_surface(const Vec3<T>& y, const Vec3<T>& d, int face,
 // Side: u around the axis, v along it. Caps: the square around the disk, seen from outside.
 template <class T>
 inline UV<T> cylinder_uv(const Vec3<T>& y, int face, T radius) {
-    if (face == 0) return {turn(y.y, y.x), y.z / radius};
+    if (face == 0) return {turn(y.y, y.x), unit_clamp(y.z / radius)};
     return disk_uv(face == 2 ? y.x : -y.x, y.y, radius);
 }
 

@@ -5,18 +5,18 @@
 
 namespace raybound {
 
-// A single crossing: t_in; there is no way out.
+// A single crossing, t_in; there is no way out. `climb` is how fast the height changes along the ray: where its sign is
+// unsure the ray is parallel.
 template <class T>
-inline Span<T> sheet_span(T t, const Banded<T>& height, T climb, Mask<T> inside) {
-    const Mask<T> parallel = climb == T(0);
+inline Span<T> sheet_span(const Banded<T>& height, const Banded<T>& climb, Mask<T> inside) {
+    const Mask<T> parallel = abs(climb.value) <= climb.band;
     Span<T> span;
-    span.t_in = t;
+    span.t_in = -(height.value / climb.value);
     span.t_out = infinity<T>;
     span.face_in = span.face_out = 0;
     span.hit = !parallel & inside;
-    span.in_ahead = (abs(height.value) > height.band) & ((height.value > T(0)) != (climb > T(0)));
+    span.in_ahead = (abs(height.value) > height.band) & ((height.value > T(0)) != (climb.value > T(0)));
     span.out_ahead = Mask<T>(false);
-    span.unsure = abs(height.value) <= height.band;
     return span;
 }
 
@@ -25,7 +25,8 @@ inline Span<T> disk_span(const LocalRay<T>& ray, T radius) {
     const Vec3<T>&f = ray.origin, &d = ray.direction;
     const T t = -(f.z / d.z);
     const T x = f.x + t * d.x, y = f.y + t * d.y;
-    return sheet_span(t, Banded<T>{f.z, ray.origin_error}, d.z, x * x + y * y <= radius * radius);
+    return sheet_span(Banded<T>{f.z, ray.origin_error}, Banded<T>{d.z, ray.direction_error},
+                      x * x + y * y <= radius * radius);
 }
 
 template <class T>

@@ -25,10 +25,15 @@ Vec3f rounded(const Vec3d& v, float& error) {
 LeafKind leaf_kind(ShapeKind kind) { return static_cast<LeafKind>(kind); }
 static_assert(static_cast<int>(LeafKind::polygon) == static_cast<int>(ShapeKind::polygon));
 
+Mat3<double> absolute(const Mat3<double>& m) { return {absolute(m.row[0]), absolute(m.row[1]), absolute(m.row[2])}; }
+
 // A' = R B^-1 with B the map from unit coordinates to the world, R the power of two at its mean column length.
-Frame make_frame(const Affine& unit, double slope) {
+Frame make_frame(const Affine& unit, double top_ratio) {
     const Vec3d c0 = unit.linear.column(0), c1 = unit.linear.column(1), c2 = unit.linear.column(2);
     const double mean = std::cbrt(length(c0)) * std::cbrt(length(c1)) * std::cbrt(length(c2));
+    const double least = minimum(minimum(length(c0), length(c1)), length(c2));
+    if (!(least >= 0.5 * double(least_size)))
+        throw std::invalid_argument("Shape: transforms must keep sizes at least 2**-60, got " + format(least));
     const double radius = power_of_two_below(mean);
     Frame frame;
     const Mat3<double> inverted = inverse(unit.linear);
@@ -38,16 +43,26 @@ Frame make_frame(const Affine& unit, double slope) {
     frame.center = Vec3f(frame.center_wide);
     frame.radius = float(radius);
     frame.norm = next_float_up(float(norm_infinity(frame.linear_wide) * (1 + 0x1p-40)));
-    frame.slope = slope;
+    frame.slope = 1 - top_ratio;
+    frame.top_radius = top_ratio * radius;
     frame.inverse_norm = norm_infinity(unit.linear) / radius * (1 + 0x1p-40);
     return frame;
 }
 
-// Inverting and composing in double leaves an error of about 2^-50 times the condition of the map.
-float frame_surface_error(const Frame& frame) {
-    const double condition = maximum(1.0, double(frame.norm) * frame.inverse_norm);
-    return next_float_up(
-        float(0x1p-48 * condition * (frame.inverse_norm * double(frame.radius) + norm1(frame.center_wide) * 0x1p-4)));
+// How far the frame's surface can be from the description's (derivation D5): the residual A B - R 1 is measured, with
+// its own rounding and that of composing B; a point of the unit shape is moved by no more than each column times it.
+float frame_surface_error(const Frame& frame, const Affine& unit) {
+    const Mat3<double> product = frame.linear_wide * unit.linear;
+    const Mat3<double> size = absolute(frame.linear_wide) * absolute(unit.linear);
+    const double radius = frame.radius;
+    double moved = 0x1p-50 * norm1(unit.offset);
+    for (int i = 0; i < 3; ++i) {
+        double residual = 0;
+        for (int j = 0; j < 3; ++j)
+            residual += std::abs(product.row[i][j] - (i == j ? radius : 0)) + 0x1p-50 * size.row[i][j];
+        moved += residual / radius * length(unit.linear.column(i));
+    }
+    return next_float_up(float(moved));
 }
 
 PolygonPlane make_plane(const std::vector<Vec3f>& v) {
@@ -57,8 +72,8 @@ PolygonPlane make_plane(const std::vector<Vec3f>& v) {
     const Vec3d a = absolute(normal);
     PolygonPlane plane;
     plane.axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
-    plane.slope_i = float(normal[(plane.axis + 1) % 3] / normal[plane.axis]);
-    plane.slope_j = float(normal[(plane.axis + 2) % 3] / normal[plane.axis]);
+    plane.slope_i = normal[(plane.axis + 1) % 3] / normal[plane.axis];
+    plane.slope_j = normal[(plane.axis + 2) % 3] / normal[plane.axis];
     plane.orientation = normal[plane.axis] > 0 ? 1.0f : -1.0f;
     const Vec3d u = normalize(Vec3d(v[1]) - Vec3d(v[0])), w = cross(normalize(normal), u);
     double u_low = 0, u_high = 0, w_low = 0, w_high = 0;
@@ -78,7 +93,8 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
     std::vector<Vec3f> placed;
     for (const Vec3f& v : shape.vertices()) placed.push_back(rounded(placement.point(Vec3d(v)), leaf.surface_error));
     PolygonPlane plane = make_plane(placed);
-    if (!is_finite(Vec3f(plane.slope_i, plane.slope_j, 0)) || !is_finite(plane.u_axis) || !is_finite(plane.v_axis))
+    if (determinant(placement.linear) < 0) plane.orientation = -plane.orientation;  // a mirror keeps outside outside
+    if (!is_finite(Vec3d(plane.slope_i, plane.slope_j, 0)) || !is_finite(plane.u_axis) || !is_finite(plane.v_axis))
         throw std::invalid_argument(
             "Polygon: the transform must keep the vertices apart, they collapse when rounded to float32");
     plane.first_vertex = std::uint32_t(geometry.vertices.size());
@@ -116,10 +132,11 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
     if (shape.kind() == ShapeKind::polygon) {
         place_polygon(geometry, leaf, shape, placement);
     } else if (!place_in_world(leaf, shape, placement)) {
-        const double slope =
-            shape.kind() == ShapeKind::cone ? 1 - double(shape.top_radius()) / double(shape.radius()) : 0;
-        const Frame frame = make_frame(placement * unit_frame(shape), slope);
-        leaf.surface_error = frame_surface_error(frame);
+        const Affine unit = placement * unit_frame(shape);
+        const double top = shape.kind() == ShapeKind::cone ? double(shape.top_radius()) / double(shape.radius()) : 1;
+        const Frame frame = make_frame(unit, top);
+        if (frame.slope == 0 && leaf.kind == LeafKind::cone) leaf.kind = LeafKind::cylinder;
+        leaf.surface_error = frame_surface_error(frame, unit);
         leaf.frame = std::int32_t(geometry.frames.size());
         geometry.frames.push_back(frame);
     }

@@ -21,6 +21,7 @@ struct Frame {
     Mat3<double> linear_wide;
     Vec3d center_wide;
     double slope = 0;         // of a cone
+    double top_radius = 0;    // of a cone, in its own coordinates
     double inverse_norm = 1;  // of A^-1: how far a local distance reaches in the world
 };
 

@@ -1,9 +1,21 @@
 // Where rays meet primitives: which crossing counts, and the hit point with bounds of its errors.
+//
+// The number type T draws; whether and where a ray crosses a surface is *decided* in its wide type (double for float),
+// so that the picture's decisions are those of double arithmetic, and T is a filter before it that never errs.
 #pragma once
 
 #include "raybound/shapes/geometry.h"
 
 namespace raybound {
+
+// A ray as both types see it.
+template <class T>
+struct WideRay {
+    explicit WideRay(const Ray<T>& ray) : narrow(ray), wide(widen(ray)) {}
+
+    const Ray<T>& narrow;
+    Ray<Wide<T>> wide;
+};
 
 // The first crossing of a primitive that certainly lies ahead of a ray's origin.
 template <class T>
@@ -16,23 +28,24 @@ struct Crossing {
 };
 
 template <class T>
-Crossing<T> first_crossing(const Geometry& geometry, const Primitive& primitive, const Ray<T>& ray);
+Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray);
 
-// Does the primitive block the segment, certainly after its origin and certainly before its target? Found in T,
-// confirmed in the wide type, for which both ends are exact.
+// Does the primitive block the ray, certainly after its origin and certainly before its target, if it has one?
 template <class T>
-Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const Ray<T>& ray);
+Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray);
 
-// A hit with its error bounds. The box point +- point_error holds a point of the surface; t +- t_error holds the ray's
-// crossing of it (derivation D3). `normal` is the outward unit normal.
+// A hit with its error bounds. `entering`: the ray comes from outside, against the outward normal (asked in the wide
+// type: at a silhouette the rounded normal may say otherwise). The box point +- point_error holds a point of the
+// surface; t +- t_error holds the ray's crossing of it (derivation D3). `normal` is the outward unit normal.
 template <class T>
 struct SurfacePoint {
     T t, t_error;
     Vec3<T> point, point_error, normal;
     UV<T> uv;
+    bool entering;
 };
 
 template <class T>
-SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<T>& crossing, const Ray<T>& ray);
+SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray);
 
 }  // namespace raybound

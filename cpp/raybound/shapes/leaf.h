@@ -76,22 +76,38 @@ inline Span<T> framed_span(const Leaf& leaf, const Frame& frame, const LocalRay<
     }
 }
 
+// A ray in the coordinates of a leaf that is not a polygon.
+template <class T>
+inline LocalRay<T> leaf_ray(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    if (leaf.frame >= 0) return local_ray(geometry.frames[std::size_t(leaf.frame)], ray);
+    if (leaf.kind == LeafKind::box) return {ray.origin, ray.direction, ray.reciprocal, T(0), T(0)};
+    const LocalPoint<T> origin = to_sphere(leaf, ray.origin);
+    return {origin.y, ray.direction, ray.reciprocal, origin.error, T(0)};
+}
+
 template <class T>
 inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
     if (leaf.kind == LeafKind::polygon) {
         const PolygonPlane& plane = geometry.polygons[leaf.polygon];
         return polygon_span(plane, geometry.polygon_vertices(plane), ray);
     }
-    if (leaf.frame >= 0) {
-        const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
-        return framed_span(leaf, frame, local_ray(frame, ray));
-    }
-    if (leaf.kind == LeafKind::sphere) {
-        const LocalPoint<T> origin = to_sphere(leaf, ray.origin);
-        return sphere_span(LocalRay<T>{origin.y, ray.direction, ray.reciprocal, origin.error, T(0)}, T(leaf.radius));
-    }
-    return box_span(LocalRay<T>{ray.origin, ray.direction, ray.reciprocal, T(0), T(0)}, Vec3<T>(leaf.first),
-                    Vec3<T>(leaf.second));
+    const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
+    if (leaf.frame >= 0) return framed_span(leaf, geometry.frames[std::size_t(leaf.frame)], local);
+    if (leaf.kind == LeafKind::sphere) return sphere_span(local, T(leaf.radius));
+    return box_span(local, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
+}
+
+// A cheap filter in T before the deciding type is asked: no only if the ray *certainly* does not meet the leaf's
+// quadric (derivation D2). Flat faces have none: their own box is filter enough.
+template <class T>
+inline Mask<T> may_cross(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    if (leaf.kind != LeafKind::sphere && leaf.kind != LeafKind::cylinder && leaf.kind != LeafKind::cone) return true;
+    const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
+    const T radius = leaf.frame >= 0 ? T(geometry.frames[std::size_t(leaf.frame)].radius) : T(leaf.radius);
+    if (leaf.kind == LeafKind::sphere) return !certainly_missed(sphere_quadratic(local, radius));
+    if (leaf.kind == LeafKind::cylinder) return !certainly_missed(cylinder_quadratic(local, radius));
+    const Quadratic<T> q = cone_quadratic(local, radius, T(geometry.frames[std::size_t(leaf.frame)].slope));
+    return !(q.discriminant.value < -q.discriminant.band);
 }
 
 template <class T>
@@ -145,7 +161,7 @@ inline UV<T> framed_uv(const Leaf& leaf, const Frame& frame, int face, const Vec
         case LeafKind::cylinder:
             return cylinder_uv(y, face, radius);
         case LeafKind::cone:
-            return cone_uv(y, face, radius, T(frame.slope));
+            return cone_uv(y, face, radius, T(frame.top_radius));
         default:
             return disk_uv(y.x, y.y, radius);
     }

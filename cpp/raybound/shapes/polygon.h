@@ -8,11 +8,12 @@
 namespace raybound {
 
 // The plane is F(x) = orientation * ((x_k - v_k) + m_i (x_i - v_i) + m_j (x_j - v_j)), k the dominant axis of the
-// normal and |m| <= 1, with v the first vertex: exact for the floats that define it, without a unit normal to round.
+// normal and |m| <= 1, with v the first vertex: no unit normal to round, and every point can be put on it exactly.
 struct PolygonPlane {
     std::uint32_t first_vertex = 0, vertex_count = 0;
     int axis = 2;
-    float slope_i = 0, slope_j = 0, orientation = 1;
+    double slope_i = 0, slope_j = 0;
+    float orientation = 1;
     Vec3f u_axis, v_axis;  // (u,v) = offset + axis . (p - v)
     float u_offset = 0, v_offset = 0;
 };
@@ -30,8 +31,8 @@ template <class T>
 inline Vec3<T> plane_gradient(const PolygonPlane& plane) {
     Vec3<T> gradient;
     gradient[plane.axis] = T(plane.orientation);
-    gradient[(plane.axis + 1) % 3] = T(plane.orientation * plane.slope_i);
-    gradient[(plane.axis + 2) % 3] = T(plane.orientation * plane.slope_j);
+    gradient[(plane.axis + 1) % 3] = T(plane.orientation) * T(plane.slope_i);
+    gradient[(plane.axis + 2) % 3] = T(plane.orientation) * T(plane.slope_j);
     return gradient;
 }
 
@@ -54,15 +55,9 @@ struct Shear {
     T y(const Vec3<T>& p) const { return p[ky] - sy * p[kz]; }
 };
 
-// The sign of ax by - ay bx is right where it is not zero (rounding is monotone); zero is asked again in double, where
-// the product of two floats is exact (seeds/000, 3.9.3).
-inline double edge_side(float ax, float ay, float bx, float by) {
-    const float e = ax * by - ay * bx;
-    return e != 0 ? double(e) : double(ax) * double(by) - double(ay) * double(bx);
-}
-inline double edge_side(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
-
-// Does the line pass through the polygon, seen from either side? A line through an edge or a vertex does.
+// Does the line pass through the polygon, seen from either side? A line through an edge or a vertex does. The sign of
+// ax by - ay bx is that of the exact value of the sheared coordinates, or it is zero (rounding is monotone; seeds/000,
+// 3.9.3), and zero counts for both sides.
 template <class T>
 inline bool line_pierces(std::span<const Vec3f> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
     const Shear<T> shear(direction);
@@ -72,9 +67,9 @@ inline bool line_pierces(std::span<const Vec3f> vertices, const Vec3<T>& origin,
     for (const Vec3f& vertex : vertices) {
         const Vec3<T> b = Vec3<T>(vertex) - origin;
         const T bx = shear.x(b), by = shear.y(b);
-        const double side = edge_side(ax, ay, bx, by);
-        left = left && side >= 0;
-        right = right && side <= 0;
+        const T side = ax * by - ay * bx;
+        left = left && side >= T(0);
+        right = right && side <= T(0);
         if (!(left || right)) return false;
         ax = bx;
         ay = by;
@@ -85,9 +80,11 @@ inline bool line_pierces(std::span<const Vec3f> vertices, const Vec3<T>& origin,
 template <class T>
 inline Span<T> polygon_span(const PolygonPlane& plane, std::span<const Vec3f> vertices, const Ray<T>& ray) {
     const Banded<T> height = plane_form(plane, Vec3<T>(vertices[0]), ray.origin);
-    const T climb = dot(plane_gradient<T>(plane), ray.direction);
-    Span<T> span = sheet_span(-(height.value / climb), height, climb, Mask<T>(true));
-    const Mask<T> needed = span.hit & (span.in_ahead | span.unsure);
+    const Vec3<T> gradient = plane_gradient<T>(plane);
+    const T steepness = dot(absolute(gradient), absolute(ray.direction));
+    const Banded<T> climb{dot(gradient, ray.direction), gamma<T>(4) * steepness};
+    Span<T> span = sheet_span(height, climb, Mask<T>(true));
+    const Mask<T> needed = span.hit & span.in_ahead;
     if (none(needed)) return span;
     span.hit = needed & line_pierces(vertices, ray.origin, ray.direction);
     return span;
@@ -102,7 +99,8 @@ inline Surface<T> polygon_surface(const PolygonPlane& plane, const Vec3<T>& firs
 template <class T>
 inline UV<T> polygon_uv(const PolygonPlane& plane, const Vec3<T>& first, const Vec3<T>& p) {
     const Vec3<T> r = p - first;
-    return {dot(Vec3<T>(plane.u_axis), r) + T(plane.u_offset), dot(Vec3<T>(plane.v_axis), r) + T(plane.v_offset)};
+    return {unit_clamp(dot(Vec3<T>(plane.u_axis), r) + T(plane.u_offset)),
+            unit_clamp(dot(Vec3<T>(plane.v_axis), r) + T(plane.v_offset))};
 }
 
 }  // namespace raybound

@@ -13,15 +13,15 @@ struct Banded {
 
 template <class T>
 struct Quadratic {
-    T a, b, discriminant;  // discriminant: b^2 - a c, from a form that does not cancel (Lagrange's identity)
-    Banded<T> c;
+    T a, b;
+    Banded<T> c, discriminant;  // b^2 - a c, from a form that does not cancel (Lagrange's identity)
     T b_band;
 };
 
 template <class T>
 struct Roots {
     T low, high;
-    Mask<T> real, low_ahead, high_ahead, unsure;
+    Mask<T> real, low_ahead, high_ahead;
 };
 
 // Signs of roots follow from those of a, b and c alone, not from rounded roots. With P = c/a the product and
@@ -29,7 +29,7 @@ struct Roots {
 // origin is on the surface) one root is "at the origin" and not ahead; the other has the sign of S.
 template <class T>
 inline Roots<T> solve(const Quadratic<T>& q) {
-    const T root = sqrt(maximum(T(0), q.discriminant));
+    const T root = sqrt(maximum(T(0), q.discriminant.value));
     const T stable = -(q.b + copysign(root, q.b));
     const T first = stable / q.a;
     const T second = select(stable == T(0), first, q.c.value / stable);
@@ -38,9 +38,9 @@ inline Roots<T> solve(const Quadratic<T>& q) {
     Roots<T> roots;
     roots.low = minimum(first, second);
     roots.high = maximum(first, second);
-    roots.real = q.discriminant >= T(0);
-    roots.unsure = abs(q.c.value) <= q.c.band;
-    const Mask<T> rising = sum > select(roots.unsure, q.b_band, T(0));
+    roots.real = q.discriminant.value >= T(0);
+    const Mask<T> at_surface = abs(q.c.value) <= q.c.band;
+    const Mask<T> rising = sum > select(at_surface, q.b_band, T(0));
 #ifdef RAYBOUND_SABOTAGE_PREDICATE
     roots.low_ahead = (product > -q.c.band) & rising;  // the sabotage build: unknown is read as yes
 #else
@@ -63,9 +63,24 @@ inline T square_band(T f_norm, T squares, T f_error) {
     return gamma<T>(6) * squares + (T(2) * f_norm + T(3) * f_error) * f_error;
 }
 
+// The discriminant as `whole` - |moment|^2 with whole = R^2 a: bands of the moment's components (two products each,
+// whose factors carry errors: twice dot_band) and of whole.
+template <class T>
+inline Banded<T> discriminant_form(T whole, T whole_band, T moment_squared, T moment_norm, T moment_band) {
+    const T band = whole_band + gamma<T>(5) * moment_squared + (T(2) * moment_norm + T(3) * moment_band) * moment_band;
+    return {whole - moment_squared, band};
+}
+
+// The filter for a number type that is not the one that decides: the line certainly misses the surface, or the ray
+// certainly leaves it behind (for surfaces that only a > 0 can hit twice).
+template <class T>
+inline Mask<T> certainly_missed(const Quadratic<T>& q) {
+    return (q.discriminant.value < -q.discriminant.band) | ((q.a > T(0)) & (q.c.value > q.c.band) & (q.b > q.b_band));
+}
+
 template <class T>
 inline Span<T> between(const Roots<T>& roots, int face) {
-    return {roots.low, roots.high, face, face, roots.real, roots.low_ahead, roots.high_ahead, roots.unsure};
+    return {roots.low, roots.high, face, face, roots.real, roots.low_ahead, roots.high_ahead};
 }
 
 }  // namespace raybound

@@ -6,21 +6,20 @@
 namespace raybound {
 
 // A ray in the coordinates of a shape. The errors bound, component by component, how far origin and direction are
-// from those that the wide map of the shape gives (derivation D1).
+// from those that the exact map of the shape gives (derivation D1).
 template <class T>
 struct LocalRay {
     Vec3<T> origin, direction, reciprocal;
     T origin_error, direction_error;
 };
 
-// The line is inside for t in [t_in, t_out] where `hit`. A crossing is `ahead` if it certainly lies at t > 0.
-// `unsure` says that the origin is too close to one of the surfaces for this number type to tell: then the caller asks
-// again in the wide type, where "unsure" means "on the surface", which is not ahead.
+// The line is inside for t in [t_in, t_out] where `hit`. A crossing is `ahead` if it *certainly* lies at t > 0: one
+// whose sign the number type cannot tell is at the origin, which a ray has left (derivation D2).
 template <class T>
 struct Span {
     T t_in, t_out;
     int face_in, face_out;
-    Mask<T> hit, in_ahead, out_ahead, unsure;
+    Mask<T> hit, in_ahead, out_ahead;
 };
 
 // A convex solid is the intersection of its pieces: the later entry, the earlier exit. On a tie the lower face, which
@@ -36,17 +35,18 @@ inline Span<T> clip(const Span<T>& a, const Span<T>& b) {
     both.hit = a.hit & b.hit & (both.t_in <= both.t_out);
     both.in_ahead = select(in, b.in_ahead, a.in_ahead);
     both.out_ahead = select(out, b.out_ahead, a.out_ahead);
-    both.unsure = a.unsure | b.unsure;
     return both;
 }
 
-// Between the planes `lower` and `upper` of one coordinate; f, d, r are the ray's origin, direction and 1/direction
-// there, `band` bounds the error of f (0: the signs of differences of floats are exact).
+// Between the planes `lower` and `upper` of one coordinate; f and d are the ray's origin and direction there, with the
+// bounds of their errors. (Without error, signs of differences are exact.) A direction whose sign is unsure is
+// parallel.
 template <class T>
-inline Span<T> slab_span(T f, T d, T r, T lower, T upper, T band, int lower_face) {
+inline Span<T> slab_span(const LocalRay<T>& ray, int axis, T lower, T upper, int lower_face) {
+    const T f = ray.origin[axis], d = ray.direction[axis], r = ray.reciprocal[axis], band = ray.origin_error;
     const T below = lower - f, above = f - upper;  // > 0: outside
-    const Mask<T> parallel = !(abs(r) < infinity<T>);
-    const Mask<T> forward = d > T(0);
+    const Mask<T> parallel = (abs(d) <= ray.direction_error) | !(abs(r) < infinity<T>);
+    const Mask<T> forward = d > T(0), within = (below <= T(0)) & (above <= T(0));
     const T at_lower = below * r, at_upper = -(above * r);
     const T entry = select(forward, below, above), exit = select(forward, above, below);
     Span<T> span;
@@ -54,11 +54,9 @@ inline Span<T> slab_span(T f, T d, T r, T lower, T upper, T band, int lower_face
     span.t_out = select(parallel, infinity<T>, select(forward, at_upper, at_lower));
     span.face_in = select(forward, lower_face, lower_face + 1);
     span.face_out = select(forward, lower_face + 1, lower_face);
-    const Mask<T> within = (below <= T(0)) & (above <= T(0));
     span.hit = select(parallel, within, Mask<T>(true));
     span.in_ahead = !parallel & (entry > band);
     span.out_ahead = !parallel & (exit < -band);
-    span.unsure = (band > T(0)) & ((abs(below) <= band) | (abs(above) <= band));
     return span;
 }
 

@@ -19,11 +19,13 @@ inline Quadratic<T> sphere_quadratic(const LocalRay<T>& ray, T radius) {
     const Vec3<T>&f = ray.origin, &d = ray.direction;
     const Vec3<T> moment = cross(f, d);
     Quadratic<T> q;
+    const T r2 = radius * radius, d_norm = norm1(d);
     q.a = dot(d, d);
     q.b = dot(f, d);
     q.c = sphere_form(f, radius, ray.origin_error);
-    q.discriminant = radius * radius * q.a - dot(moment, moment);
-    q.b_band = dot_band(norm1(f), norm1(d), ray.origin_error, ray.direction_error);
+    q.b_band = dot_band(norm1(f), d_norm, ray.origin_error, ray.direction_error);
+    q.discriminant = discriminant_form(r2 * q.a, r2 * square_band(d_norm, q.a, ray.direction_error),
+                                       dot(moment, moment), norm1(moment), T(2) * q.b_band);
     return q;
 }
 

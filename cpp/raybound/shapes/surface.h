@@ -20,6 +20,12 @@ struct UV {
     T u{}, v{};
 };
 
+// Rounding may put a coordinate outside of [0, 1] by an ulp: not to be, for textures that repeat.
+template <class T>
+inline T unit_clamp(T x) {
+    return minimum(maximum(x, T(0)), T(1));
+}
+
 // The angle of (x, y) as a fraction of a turn in [0, 1].
 template <class T>
 inline T turn(T y, T x) {
@@ -35,9 +41,15 @@ inline Surface<T> axis_plane_surface(const Vec3<T>& y, int axis, T level, T sign
     return {{sign * (y[axis] - level), error + gamma<T>(1) * abs(y[axis] - level)}, gradient, T(0)};
 }
 
+// The square around a disk, from 0 to 1; the centre of a disk without extent is its middle.
+template <class T>
+inline T disk_coordinate(T x, T radius) {
+    const T fraction = select(radius > T(0), x / radius, T(0));
+    return unit_clamp((fraction + T(1)) * T(0.5));
+}
 template <class T>
 inline UV<T> disk_uv(T x, T y, T radius) {
-    return {(x / radius + T(1)) * T(0.5), (y / radius + T(1)) * T(0.5)};
+    return {disk_coordinate(x, radius), disk_coordinate(y, radius)};
 }
 
 }  // namespace raybound

@@ -1,5 +1,6 @@
 #include "raybound/trace/query.h"
 
+#include <cstring>
 #include <stdexcept>
 
 namespace raybound {
@@ -18,18 +19,20 @@ Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale, std::size_t 
     return make_ray(origin, direction);
 }
 
-HitRecord miss() {
-    HitRecord record{};
-    record.t = infinity<float>;
-    record.object_id = record.face_id = -1;
-    return record;
+// Records whose bytes are all defined, padding too: equal answers are equal byte for byte.
+template <class Record>
+std::vector<Record> blank_records(std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<Record>);
+    std::vector<Record> records(count);
+    if (count) std::memset(static_cast<void*>(records.data()), 0, count * sizeof(Record));
+    return records;
 }
 
-HitRecord hit_record(const Snapshot& scene, const Nearest<float>& nearest, const Ray<float>& ray, float scale) {
-    const SurfacePoint<float> at = surface_point(scene.geometry(), nearest.crossing, ray);
-    HitRecord record{};
-    record.hit = true;
+void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const Ray<float>& ray,
+                 float scale) {
     constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
+    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, widen(ray));
+    record.hit = true;
     record.t = minimum(at.t / scale, most);
     record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
     store(at.point, record.point);
@@ -39,7 +42,6 @@ HitRecord hit_record(const Snapshot& scene, const Nearest<float>& nearest, const
     record.uv[1] = at.uv.v;
     record.object_id = scene.objects()[scene.geometry().primitives[nearest.primitive].object].id;
     record.face_id = nearest.crossing.face_offset + nearest.crossing.face;
-    return record;
 }
 
 // The epsilon policies take the plain point o + t d and move it by 1e-5, or by 10 ulp of each coordinate.
@@ -51,15 +53,14 @@ Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& n, Offsets offsets) {
 }
 
 template <class T>
-ShapeHitRecord shape_record(const Geometry& geometry, const Crossing<T>& crossing, const Ray<T>& ray, T scale,
-                            Offsets offsets) {
-    const SurfacePoint<T> at = surface_point(geometry, crossing, ray);
-    ShapeHitRecord record{};
+void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray,
+                 T scale, Offsets offsets) {
+    const SurfacePoint<T> at = surface_point<T>(geometry, crossing, widen(ray));
     record.hit = true;
     record.t = double(at.t) / double(scale);
     record.t_error = next_float_up(double(at.t_error) / double(scale));
     const bool bounded = offsets == Offsets::bounded;
-    const Vec3<T> p = bounded ? at.point : ray.origin + ray.direction * crossing.t;
+    const Vec3<T> p = bounded ? at.point : ray.origin + ray.direction * T(crossing.t);
     store(p, record.point);
     store(at.point_error, record.point_error);
     store(at.normal, record.normal);
@@ -68,19 +69,20 @@ ShapeHitRecord shape_record(const Geometry& geometry, const Crossing<T>& crossin
     record.face_id = crossing.face_offset + crossing.face;
     store(bounded ? offset_origin(p, at.point_error, at.normal) : epsilon_origin(p, at.normal, offsets),
           record.next_origin);
-    return record;
 }
 
 }  // namespace
 
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
                                       std::span<const Vec3f> directions) {
-    std::vector<HitRecord> records(origins.size(), miss());
+    auto records = blank_records<HitRecord>(origins.size());
     for (std::size_t i = 0; i < origins.size(); ++i) {
+        records[i].t = infinity<float>;
+        records[i].object_id = records[i].face_id = -1;
         float scale;
         const Ray<float> ray = user_ray(origins[i], directions[i], scale, i);
         const Nearest<float> nearest = closest_hit(scene, ray);
-        if (nearest.hit) records[i] = hit_record(scene, nearest, ray, scale);
+        if (nearest.hit) fill_record(records[i], scene, nearest, ray, scale);
     }
     return records;
 }
@@ -101,17 +103,16 @@ std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const 
     Geometry geometry;
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
-    std::vector<ShapeHitRecord> records(origins.size());
+    auto records = blank_records<ShapeHitRecord>(origins.size());
     for (std::size_t i = 0; i < origins.size(); ++i) {
         records[i].t = infinity<double>;
         records[i].face_id = -1;
         T scale, entry;
         const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale, i);
         if (!crosses(primitive.bounds, ray, infinity<T>, &entry)) continue;
-        Crossing<T> crossing = first_crossing(geometry, primitive, ray);
-        crossing.t = maximum(crossing.t, entry);
-        if (crossing.hit && crossing.t < infinity<T>)
-            records[i] = shape_record(geometry, crossing, ray, scale, offsets);
+        const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, WideRay<T>(ray));
+        if (crossing.hit && T(crossing.t) < infinity<T>)
+            fill_record(records[i], geometry, crossing, ray, scale, offsets);
     }
     return records;
 }

@@ -14,10 +14,10 @@ std::tuple<T, std::uint32_t, std::int32_t> rank(const Nearest<T>& hit, const Geo
 // Takes the primitive's crossing if it comes first. A crossing cannot lie before the entry into the primitive's box:
 // the clamp makes that true of rounded numbers too, so that a traversal ordered by entries misses nothing.
 template <class T>
-void consider(const Geometry& geometry, std::uint32_t index, const Ray<T>& ray, T entry, Nearest<T>& best) {
-    const Crossing<T> crossing = first_crossing(geometry, geometry.primitives[index], ray);
+void consider(const Geometry& geometry, std::uint32_t index, const WideRay<T>& ray, T entry, Nearest<T>& best) {
+    const Crossing<Wide<T>> crossing = first_crossing(geometry, geometry.primitives[index], ray);
     if (!crossing.hit) return;
-    const Nearest<T> found{crossing, maximum(crossing.t, entry), index, true};
+    const Nearest<T> found{crossing, maximum(T(crossing.t), entry), index, true};
     if (!(found.t < infinity<T>)) return;
     if (!best.hit || rank(found, geometry) < rank(best, geometry)) best = found;
 }
@@ -45,9 +45,10 @@ void visit_crossed(const Snapshot& scene, const Ray<T>& ray, T t_max, Accelerati
 template <class T>
 Nearest<T> closest_hit(const Snapshot& scene, const Ray<T>& ray, Acceleration acceleration) {
     const Geometry& geometry = scene.geometry();
+    const WideRay<T> wide(ray);
     Nearest<T> best;
     visit_crossed(scene, ray, infinity<T>, acceleration, [&](std::uint32_t index, T entry, T& t_max) {
-        consider(geometry, index, ray, entry, best);
+        consider(geometry, index, wide, entry, best);
         t_max = best.t;
         return false;
     });
@@ -57,11 +58,12 @@ Nearest<T> closest_hit(const Snapshot& scene, const Ray<T>& ray, Acceleration ac
 template <class T>
 bool is_blocked(const Snapshot& scene, const Ray<T>& ray, std::int32_t* blocker, Acceleration acceleration) {
     const Geometry& geometry = scene.geometry();
+    const WideRay<T> wide(ray);
     bool blocked = false;
     const T reach = ray.has_target ? ray.t_max * T(1 + 0x1p-10) : infinity<T>;
     visit_crossed(scene, ray, reach, acceleration, [&](std::uint32_t index, T, T&) {
         const Primitive& primitive = geometry.primitives[index];
-        blocked = blocks(geometry, primitive, ray);
+        blocked = blocks(geometry, primitive, wide);
         if (blocked && blocker) *blocker = scene.objects()[primitive.object].id;
         return blocked;
     });

@@ -8,8 +8,8 @@ namespace raybound {
 // The closest crossing: the lexicographic minimum of (t, object, face).
 template <class T>
 struct Nearest {
-    Crossing<T> crossing{};
-    T t = infinity<T>;
+    Crossing<Wide<T>> crossing{};
+    T t = infinity<T>;  // the crossing's, rounded
     std::uint32_t primitive = 0;
     bool hit = false;
 };

@@ -15,20 +15,20 @@ inline Vec3<T> saturate(const Vec3<T>& c) {
     return {minimum(c.x, largest<T>), minimum(c.y, largest<T>), minimum(c.z, largest<T>)};
 }
 
-// exp((1 - 1/x^2) / sigma^2): Ward's lobe over the cosine x = N.H, since 1 - 1/x^2 = -tan^2 (thesis eq. 4.2, with the
-// sign of 4.3 corrected).
+// Ward's lobe exp(-tan^2(alpha) / sigma^2), alpha the angle between N and H = L + V (thesis eq. 4.2). The tangent is
+// taken from the cross product: 1 - 1/(N.H)^2 is the same number, but cancels where the lobe is bright.
 template <class T>
-inline T ward_lobe(T cosine, T sigma) {
-    return exp((T(1) - T(1) / square(cosine)) / square(sigma));
+inline T ward_lobe(const Vec3<T>& n, const Vec3<T>& h, T sigma) {
+    const Vec3<T> sine = cross(n, h);
+    return exp(-(dot(sine, sine) / square(dot(n, h) * sigma)));
 }
 
 // exp(...) sqrt(N.L / N.V) / (4 sigma^2): the specular term without rho_s; 0 where rounding leaves N.V <= 0.
 template <class T>
 inline T ward_specular(const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v, T n_dot_l, T n_dot_v, T sigma) {
-    const Vec3<T> h = normalize(l + v);
-    const T lobe = ward_lobe(dot(n, h), sigma);
+    const T lobe = ward_lobe(n, l + v, sigma);
     const T value = lobe * sqrt(n_dot_l / n_dot_v) / (T(4) * square(sigma));
-    return select(n_dot_v > T(0), minimum(value, largest<T>), T(0));
+    return select((n_dot_v > T(0)) & (lobe > T(0)), minimum(value, largest<T>), T(0));  // no 0 times infinity
 }
 
 // rho_d (N.L) + rho_s specular (thesis eq. 4.1 and 4.2; Ward's 1/pi is folded into the light).
@@ -47,6 +47,14 @@ struct Incoming {
     Vec3<T> irradiance;  // E: zero outside a spotlight's cone
 };
 
+// Is p within a spotlight's cone? In the wide type: in float the cosine of a narrow cone has no digits left.
+template <class T>
+inline Mask<T> inside_cone(const Light& light, const Vec3<T>& p) {
+    using W = Wide<T>;
+    const Vec3<W> way = Vec3<W>(p) - Vec3<W>(light.position);
+    return dot(way, Vec3<W>(light.direction)) >= W(light.cos_cutoff) * length(way);
+}
+
 template <class T>
 inline Incoming<T> incoming(const Light& light, const Vec3<T>& p) {
     if (light.kind == LightKind::directional) return {-Vec3<T>(light.direction), Vec3<T>(light.intensity)};
@@ -54,9 +62,8 @@ inline Incoming<T> incoming(const Light& light, const Vec3<T>& p) {
     const T squared = dot(to_light, to_light);
     const Vec3<T> l = to_light * (T(1) / sqrt(squared));
     Vec3<T> e(light.intensity);
-    if (light.falloff) e = saturate(e * (T(1) / squared));
-    const Mask<T> inside = dot(-l, Vec3<T>(light.direction)) >= T(light.cos_cutoff);
-    if (light.kind == LightKind::spot) e = select(inside, e, Vec3<T>{});
+    if (light.falloff) e = saturate(Vec3<T>{e.x / squared, e.y / squared, e.z / squared});
+    if (light.kind == LightKind::spot) e = select(inside_cone(light, p), e, Vec3<T>{});
     return {l, select(squared > T(0), e, Vec3<T>{})};
 }
 

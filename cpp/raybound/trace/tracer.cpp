@@ -10,7 +10,6 @@ struct Tracer<T>::Shadable {
     SurfacePoint<T> hit;
     const Material& material;
     Vec3<T> normal, view, diffuse;
-    bool entering;  // the ray comes from outside: against the outward normal
 };
 
 template <class T>
@@ -55,11 +54,10 @@ template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth, Record record, T* t) {
     const Geometry& geometry = scene_.geometry();
-    const SurfacePoint<T> hit = surface_point(geometry, nearest.crossing, ray);
+    const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, widen(ray));
     const Material& material = *scene_.objects()[geometry.primitives[nearest.primitive].object].material;
-    const bool entering = !(dot(ray.direction, hit.normal) > T(0));
     const Vec3<T> diffuse = material.texture ? material.texture->lookup(hit.uv) : Vec3<T>(material.diffuse);
-    const Shadable at{hit, material, entering ? hit.normal : -hit.normal, -ray.direction, diffuse, entering};
+    const Shadable at{hit, material, hit.entering ? hit.normal : -hit.normal, -ray.direction, diffuse};
     *t = hit.t;
     if constexpr (Record::active) {
         record.node->point = Vec3d(hit.point);
@@ -114,7 +112,7 @@ Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const 
     Vec3<T> sum = local, reflect(material.reflect), transmit(material.transmit), through;
     if (max_component(transmit) > T(0)) {
         const T ior(material.ior);
-        const Refraction<T> refraction = refract(ray.direction, at.normal, at.entering ? T(1) / ior : ior);
+        const Refraction<T> refraction = refract(ray.direction, at.normal, at.hit.entering ? T(1) / ior : ior);
         through = refraction.direction;
         if (refraction.total) {  // the transmit weight joins the reflected ray
             reflect = saturate(reflect + transmit);
