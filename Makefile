@@ -74,11 +74,11 @@ lint: $(VENV)/stamp-build $(VENV)/stamp-lint $(VENV)/stamp-test ## Check format,
 	$(PY) -m ruff format --check .
 	find cpp -name '*.cpp' -o -name '*.h' | xargs -r $(VENV)/bin/clang-format --dry-run -Werror
 	$(PY) .ci/check_layers.py
-	$(PY) -m mypy --strict python/raybound
+	$(PY) -m mypy --strict python/raybound tests/python/typed_script.py
 	$(PY) .ci/check_stub.py
 
-test: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the tests; TEST=pattern selects, ARGS=... adds arguments
-	$(PY) -m pytest $(PYTEST_ARGS)
+test: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the tests and notebooks; TEST=pattern selects, ARGS=... adds arguments
+	$(PY) -m pytest --nbmake --nbmake-timeout=600 $(PYTEST_ARGS)
 
 notebooks: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the notebooks
 	$(PY) -m pytest --nbmake --nbmake-timeout=600 notebooks $(ARGS)

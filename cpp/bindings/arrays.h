@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "raybound/frame/work_queue.h"
 #include "raybound/geometry/matrix.h"
 
 namespace raybound::python {
@@ -85,6 +86,15 @@ Doubles from_bounds(const Bounds& box) {
         a.mutable_data()[3 + i] = box.upper[i];
     }
     return a;
+}
+
+// Called with the GIL released; takes it to look at signals and to tell the caller how far the work is.
+inline Watch watcher(const py::object& progress) {
+    return [&progress](double fraction) {
+        const py::gil_scoped_acquire acquired;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!progress.is_none()) progress(fraction);
+    };
 }
 
 void register_numbers(py::module_& m);

@@ -15,15 +15,6 @@ py::array_t<T> view(const std::shared_ptr<FrameBuffers>& buffers, std::vector<El
     return array;
 }
 
-// Called with the GIL released; takes it to look at signals and to tell the caller how far the work is.
-Watch watcher(const py::object& progress) {
-    return [&progress](double fraction) {
-        const py::gil_scoped_acquire acquired;
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!progress.is_none()) progress(fraction);
-    };
-}
-
 py::dict ray_counts(const RayCounts& r) {
     return py::dict("eye"_a = r.eye, "shadow"_a = r.shadow, "reflected"_a = r.reflected, "refracted"_a = r.refracted);
 }

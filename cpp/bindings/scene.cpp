@@ -1,6 +1,6 @@
 #include "bindings/arrays.h"
+#include "raybound/frame/query.h"
 #include "raybound/scene/document.h"
-#include "raybound/trace/query.h"
 
 namespace raybound::python {
 
@@ -11,9 +11,10 @@ py::array_t<HitRecord> intersect(const Snapshot& scene, const Floats& origins, c
     if (o.size() != d.size())
         throw std::invalid_argument("Scene.intersect: origins and directions must have the same shape");
     std::vector<HitRecord> records;
+    const py::object silent = py::none();
     {
         const py::gil_scoped_release released;
-        records = intersect_rays(scene, o, d);
+        records = intersect_rays(scene, o, d, watcher(silent));
     }
     return from_vector(records);
 }
@@ -23,9 +24,10 @@ py::array_t<bool> occluded_array(const Snapshot& scene, const Floats& origins, c
     if (o.size() != t.size())
         throw std::invalid_argument("Scene.occluded: origins and targets must have the same shape");
     std::vector<std::uint8_t> blocked;
+    const py::object silent = py::none();
     {
         const py::gil_scoped_release released;
-        blocked = occluded(scene, o, t);
+        blocked = occluded(scene, o, t, watcher(silent));
     }
     py::array_t<bool> result(py::ssize_t(blocked.size()));
     std::copy(blocked.begin(), blocked.end(), result.mutable_data());

@@ -1,5 +1,5 @@
 #include "bindings/arrays.h"
-#include "raybound/trace/query.h"
+#include "raybound/frame/query.h"
 
 namespace raybound::python {
 
@@ -26,10 +26,11 @@ py::array_t<ShapeHitRecord> intersect(const ShapePointer& shape, const Doubles& 
     if (o.size() != d.size()) throw std::invalid_argument("intersect: origins and directions must have the same shape");
     const Offsets policy = offsets_named(offsets);
     std::vector<ShapeHitRecord> records;
+    const py::object silent = py::none();
     {
         const py::gil_scoped_release released;
-        records = precision == "float32" ? intersect_shape<float>(*shape, o, d, policy)
-                                         : intersect_shape<double>(*shape, o, d, policy);
+        records = precision == "float32" ? intersect_shape<float>(*shape, o, d, policy, watcher(silent))
+                                         : intersect_shape<double>(*shape, o, d, policy, watcher(silent));
     }
     return from_vector(records);
 }

@@ -1,4 +1,7 @@
-"""The raw C++ module. Arrays are C-contiguous, float32 unless typed otherwise; a vec3 has shape (3,)."""
+"""The raw C++ module. Arrays are C-contiguous, float32 unless typed otherwise; a vec3 has shape (3,).
+
+Classes whose constructor takes anything have none: it raises TypeError, and functions make them.
+"""
 
 from collections.abc import Callable
 from typing import Any, TypedDict, final
@@ -59,6 +62,7 @@ def transform_round(m: _Double) -> _Double: ...
 
 @final
 class Shape:
+    def __init__(self, *args: Any, **kwargs: Any) -> None: ...
     def bounds(self) -> _Double: ...
     @property
     def is_solid(self) -> bool: ...
@@ -84,13 +88,16 @@ def intersect_shape(
 
 @final
 class Texture:
+    def __init__(self, *args: Any, **kwargs: Any) -> None: ...
     def lookup(self, uv: _Float) -> _Float: ...
 
 @final
-class Material: ...
+class Material:
+    def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
 @final
-class Light: ...
+class Light:
+    def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
 def texture(texels: _Float, scale_u: float, scale_v: float, wrap: str) -> Texture: ...
 def material(
@@ -131,6 +138,7 @@ class Document:
 
 @final
 class Snapshot:
+    def __init__(self, *args: Any, **kwargs: Any) -> None: ...
     @property
     def revision(self) -> int: ...
     @property

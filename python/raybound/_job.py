@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
 
@@ -11,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, statistics
+from ._records import Records
 from .camera import Camera
 from .frame import ARRAYS, Frame, Origin
 from .progress import ProgressCall
@@ -26,7 +26,7 @@ class Job:
     camera: Camera
     tolerance: Tolerance
     max_depth: int
-    labels: Mapping[Any, str]
+    records: Records
     buffers: _core.FrameBuffers
     stats: dict[str, Any] = field(default_factory=statistics.zero)
 
@@ -34,9 +34,9 @@ class Job:
     def start(cls, scene: Scene, camera: Camera, tolerance: Tolerance, max_depth: int, *, since: int | None) -> Self:
         """Takes a snapshot of the scene. `since`: the revision of the renderer's previous frame."""
         begin = time.perf_counter()
-        snapshot = scene._document.snapshot()
+        snapshot, records = scene._document.snapshot(), scene._committed.copy()
         buffers = _core.FrameBuffers(camera.width, camera.height)
-        job = cls(snapshot, camera, tolerance, max_depth, scene._labels, buffers)
+        job = cls(snapshot, camera, tolerance, max_depth, records, buffers)
         job.stats["edits"] = 0 if since is None else snapshot.revision - since
         job._spend("snapshot", begin)
         return job
@@ -78,5 +78,5 @@ class Job:
             tolerance=self.tolerance,
             revision=self.snapshot.revision,
             stats=stats,
-            origin=Origin(self.snapshot, self.max_depth, self.labels),
+            origin=Origin(self.snapshot, self.max_depth, self.records),
         )

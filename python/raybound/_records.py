@@ -24,6 +24,11 @@ class ObjectRecord(NamedTuple):
     material: Material
     transform: Transform
 
+    @property
+    def label(self) -> str:
+        """How explanations call it."""
+        return _label(self.name, self.shape)
+
 
 class LightRecord(NamedTuple):
     """A light."""
@@ -32,10 +37,20 @@ class LightRecord(NamedTuple):
     name: str | None
     light: Light
 
+    @property
+    def label(self) -> str:
+        """How explanations call it."""
+        return _label(self.name, self.light)
+
+
+def _label(name: str | None, value: object) -> str:
+    kind = type(value).__name__
+    return kind if name is None else f"{name!r} ({kind})"
+
 
 @dataclass
 class Records:
-    """All records of a scene, by id in order of creation."""
+    """All records of a scene, by id in order of creation; `made` counts those made so far, removed ones too."""
 
     ambient: Vector
     background: Vector
@@ -43,10 +58,21 @@ class Records:
     objects: dict[int, ObjectRecord] = field(default_factory=dict)
     lights: dict[int, LightRecord] = field(default_factory=dict)
     names: dict[str, tuple[Kind, int]] = field(default_factory=dict)
+    made: dict[Kind, int] = field(default_factory=lambda: {"object": 0, "light": 0})
 
     def copy(self) -> Records:
         """A copy with dictionaries of its own (records are immutable)."""
-        return replace(self, objects=dict(self.objects), lights=dict(self.lights), names=dict(self.names))
+        return replace(
+            self,
+            objects=dict(self.objects),
+            lights=dict(self.lights),
+            names=dict(self.names),
+            made=dict(self.made),
+        )
+
+    def get(self, kind: Kind, id: int) -> ObjectRecord | LightRecord | None:
+        """The record of that id, if there is one."""
+        return self.objects.get(id) if kind == "object" else self.lights.get(id)
 
     def check_name(self, who: str, name: str | None) -> None:
         """Raises ValueError if the name is taken."""
@@ -61,6 +87,7 @@ class Records:
             self.lights[id] = record
         if record.name is not None:
             self.names[record.name] = (kind, id)
+        self.made[kind] = max(self.made[kind], id + 1)
 
     def drop(self, kind: Kind, id: int) -> None:
         """Removes a record and its name."""

@@ -20,6 +20,7 @@ class Value:
     _fields: ClassVar[tuple[str, ...]] = ()
     _defaults: ClassVar[Mapping[str, object]] = {}
     _is_double: ClassVar[bool] = False  # fields are float64: repr needs all digits
+    __array_ufunc__: ClassVar[None] = None  # an operator with an array is a TypeError, not NumPy's attempt at it
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -115,5 +116,5 @@ def expression(value: object, is_double: bool = False) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(expression(item, is_double) for item in value) + "]"
     if isinstance(value, tuple):
-        return "(" + ", ".join(expression(item, is_double) for item in value) + ("," * (len(value) == 1)) + ")"
+        return "(" + ", ".join(expression(item, is_double) for item in value) + ")"
     return repr(value)

@@ -45,20 +45,25 @@ def _scene(maker: Callable[[], Scene], width: int, height: int, repeat: int) -> 
     begin = time.perf_counter()
     scene._document.snapshot()
     built = time.perf_counter() - begin
-    by_threads = {str(threads): _threads(scene, width, height, repeat, threads) for threads in THREADS}
-    first, second = (by_threads[str(threads)]["seconds"] for threads in THREADS)
+    rays: dict[str, int] = {}
+    by_threads: dict[str, dict[str, float]] = {}
+    for threads in THREADS:
+        rays, by_threads[str(threads)] = _threads(scene, width, height, repeat, threads)
+    first, second = (times["seconds"] for times in by_threads.values())
     return {
         "objects": len(scene),
         "seconds_to_make": made,
         "seconds_to_build": built,
-        "rays": by_threads["1"].pop("rays"),
-        "threads": {key: {k: v for k, v in value.items() if k != "rays"} for key, value in by_threads.items()},
+        "rays": rays,
+        "threads": by_threads,
         "speedup": first / second,
     }
 
 
-def _threads(scene: Scene, width: int, height: int, repeat: int, threads: int) -> dict[str, Any]:
-    """Medians over `repeat` frames, after one that is not counted."""
+def _threads(
+    scene: Scene, width: int, height: int, repeat: int, threads: int
+) -> tuple[dict[str, int], dict[str, float]]:
+    """The rays of a frame, and medians over `repeat` frames after one that is not counted."""
     if scene.camera is None:
         raise ValueError("bench: the scene has no camera")
     camera = scene.camera.replace(width=width, height=height)
@@ -66,11 +71,10 @@ def _threads(scene: Scene, width: int, height: int, repeat: int, threads: int) -
         frames = [renderer.render(camera).stats for _ in range(repeat + 1)][1:]
     seconds = _statistics.median(stats["seconds_by_phase"]["trace"] for stats in frames)
     rays: dict[str, int] = frames[0]["rays"]
-    return {
+    return rays, {
         "seconds": seconds,
         "ns_per_pixel": seconds / (width * height) * 1e9,
         "ns_per_ray": seconds / sum(rays.values()) * 1e9,
-        "rays": rays,
     }
 
 

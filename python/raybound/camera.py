@@ -19,7 +19,7 @@ class Camera(Value):
     up : (3,) array_like
         The direction that is up in the picture; not parallel to the view.
     fov : float
-        Vertical field of view in degrees, between 0 and 180.
+        Vertical field of view in degrees, 0.001..179.9.
     width, height : int
         Size of the picture in pixels, 1..65536. Pixel (0, 0) is top left, x grows to the right.
 
@@ -45,7 +45,7 @@ class Camera(Value):
         height: int = 480,
     ) -> None:
         self._set(eye=_validate.vector("Camera", "eye", eye), target=_validate.vector("Camera", "target", target))
-        self._set(up=_validate.direction("Camera", "up", up), fov=_validate.number("Camera", "fov", fov))
+        self._set(up=_validate.direction("Camera", "up", up), fov=_validate.positive("Camera", "fov", fov))
         self._set(width=_validate.integer("Camera", "width", width, lowest=1, highest=65536))
         self._set(height=_validate.integer("Camera", "height", height, lowest=1, highest=65536))
         self._set(_native=self._make())

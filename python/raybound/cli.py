@@ -24,7 +24,7 @@ class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one line."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message}\n")
+        self.exit(2, f"{self.prog}: {' '.join(message.split())}\n")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -50,8 +50,12 @@ def _parser() -> argparse.ArgumentParser:
 def _add_render(render: argparse.ArgumentParser) -> None:
     render.add_argument("scene", metavar="SCENE", help="a .json file, museum, three_spheres, or sphereflake:LEVELS")
     render.add_argument("-o", "--out", metavar="OUT", required=True, help="the image file, such as a.png or a.exr")
-    render.add_argument("--camera", help="a JSON object with Camera's arguments, or ex,ey,ez,tx,ty,tz")
-    render.add_argument("--tolerance", type=_tolerance, default=0.0, help="relative error (default 0), or none")
+    render.add_argument(
+        "--camera", help="a JSON object with Camera's arguments, or --camera=ex,ey,ez,tx,ty,tz (eye and target)"
+    )
+    render.add_argument(
+        "--tolerance", type=_tolerance, default=Tolerance(0), help="relative error (default 0), or none"
+    )
     render.add_argument("--width", type=int, help="pixels (default: the camera's)")
     render.add_argument("--height", type=int, help="pixels (default: the camera's)")
     render.add_argument("--threads", type=int, default=0, help="0: all cores (default)")
@@ -61,8 +65,13 @@ def _add_render(render: argparse.ArgumentParser) -> None:
     render.set_defaults(run=_render)
 
 
-def _tolerance(text: str) -> Tolerance | float:
-    return Tolerance(None) if text.lower() == "none" else float(text)
+def _tolerance(text: str) -> Tolerance:
+    if text.lower() == "none":
+        return Tolerance(None)
+    try:
+        return Tolerance(float(text))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number >= 0 or none, got {text!r}") from None
 
 
 def _scene(text: str) -> Scene:

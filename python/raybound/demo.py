@@ -21,7 +21,7 @@ def make_demo(out: Path, *, frames: int, width: int, height: int) -> Iterator[st
     Yields the lines of a table while it works. ValueError for sizes or a number of frames that make no sense.
     """
     if frames < 1:
-        raise ValueError(f"demo: frames must be >= 1, got {frames}")
+        raise ValueError(f"frames must be >= 1, got {frames}")
     scene = scenes.museum()
     cameras = [camera.replace(width=width, height=height) for camera in scenes.walkthrough(frames=frames)]
     (out / "walk").mkdir(parents=True, exist_ok=True)

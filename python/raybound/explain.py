@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ._records import Kind
 from .enums import Path, Reason
 
 
@@ -45,18 +46,19 @@ class Explanation:
     error_bound: float
     cell: dict[str, Any] | None
     tree: dict[str, Any]
-    labels: Mapping[tuple[str, int], str]
+    labels: Mapping[tuple[Kind, int], str]
 
     def __str__(self) -> str:
         seen = "the background" if self.object is None else f"object {self.object_id}, {self.object}"
         made = f"path {self.path.name}, reason {self.reason.name}, error bound {_number(self.error_bound)}"
         cell = [] if self.cell is None else [f"  cell: {self.cell}"]
-        return "\n".join([f"pixel ({self.x}, {self.y}) shows {seen}; {made}", *cell, *self._ray(self.tree, "  ")])
+        rays = (line for level, ray in walk(self.tree) for line in self._ray(ray, "  " * (level + 1)))
+        return "\n".join([f"pixel ({self.x}, {self.y}) shows {seen}; {made}", *cell, *rays])
 
     __repr__ = __str__
 
     def _ray(self, ray: Mapping[str, Any], indent: str) -> Iterator[str]:
-        """The lines of one ray and of those it spawned."""
+        """The lines of one ray."""
         yield f"{indent}{ray['kind']} ray from {_vector(ray['origin'])} along {_vector(ray['direction'])}"
         indent += "  "
         if ray["hit"]:
@@ -70,14 +72,12 @@ class Explanation:
             yield indent + self._light(lamp)
         if ray["total_internal_reflection"]:
             yield f"{indent}total internal reflection"
-        for child in ray["children"]:
-            yield from self._ray(child, indent)
 
     def _light(self, lamp: Mapping[str, Any]) -> str:
         blocker = f" by {self._name('object', lamp['blocker'])}" if lamp["blocker"] >= 0 else ""
         return f"{self._name('light', lamp['id'])}: {lamp['verdict']}{blocker}"
 
-    def _name(self, kind: str, id: int) -> str:
+    def _name(self, kind: Kind, id: int) -> str:
         label = self.labels.get((kind, id))
         return f"{kind} {id}" if label is None else f"{kind} {id}, {label}"
 
@@ -90,9 +90,20 @@ def _vector(values: tuple[float, ...]) -> str:
     return "(" + ", ".join(_number(value) for value in values) + ")"
 
 
-def ids(tree: Mapping[str, Any]) -> set[tuple[str, int]]:
-    """Every ("object" or "light", id) in a ray tree."""
-    found = {("object", int(tree["object_id"]))} if tree["hit"] else set()
-    for lamp in tree["lights"]:
-        found |= {("light", int(lamp["id"])), ("object", int(lamp["blocker"]))}
-    return found.union(*(ids(child) for child in tree["children"]))
+def walk(tree: Mapping[str, Any]) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    """Every ray of a tree with its level, parents first. (No recursion: trees may be a thousand rays deep.)"""
+    stack = [(0, tree)]
+    while stack:
+        level, ray = stack.pop()
+        yield level, ray
+        stack += [(level + 1, child) for child in reversed(ray["children"])]
+
+
+def ids(tree: Mapping[str, Any]) -> set[tuple[Kind, int]]:
+    """Every ("object" or "light", id) in a ray tree; an id of -1 stands for nothing."""
+    found: set[tuple[Kind, int]] = set()
+    for _, ray in walk(tree):
+        found.add(("object", int(ray["object_id"])))
+        for lamp in ray["lights"]:
+            found |= {("light", int(lamp["id"])), ("object", int(lamp["blocker"]))}
+    return found

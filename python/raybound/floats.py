@@ -39,8 +39,8 @@ def _next(who: str, x: npt.ArrayLike, function: Callable[[npt.NDArray[Any]], npt
 def gamma(n: npt.ArrayLike, dtype: npt.DTypeLike = np.float32) -> Any:
     """The bound of `n` roundings, gamma_n = n u / (1 - n u) (Physically Based Rendering 3.9.1), rounded up.
 
-    `n`: an integer >= 0 or an array of them. `dtype`: float32 (u = 2^-24) or float64 (u = 2^-53); of the result as
-    well.
+    `dtype`: float32 (u = 2^-24) or float64 (u = 2^-53); of the result as well. `n`: an integer >= 0 or an array of
+    them, below 2^24 for float32 and below 2^31 for float64; ValueError otherwise.
     """
     kind = np.dtype(dtype)
     if kind not in (np.float32, np.float64):
@@ -48,7 +48,8 @@ def gamma(n: npt.ArrayLike, dtype: npt.DTypeLike = np.float32) -> Any:
     given = _validate.numeric("gamma", "n", n, "an integer or an array of integers")
     if given.dtype.kind not in "iu":
         raise TypeError(f"gamma: n must be an integer or an array of integers, got dtype {given.dtype}")
-    counts = [_validate.integer("gamma", "n", item, lowest=0, highest=2**31 - 1) for item in given.flat]
+    highest = 2**24 - 1 if kind == np.float32 else 2**31 - 1  # n u < 1
+    counts = [_validate.integer("gamma", "n", item, lowest=0, highest=highest) for item in given.flat]
     return np.array([_core.gamma(count, kind == np.float64) for count in counts], kind).reshape(given.shape)[()]
 
 

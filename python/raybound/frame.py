@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _validate, images
+from ._records import Records
 from ._validate import FloatArray
 from .camera import Camera
 from .enums import Path, Reason
@@ -28,7 +29,7 @@ class Origin:
 
     snapshot: _core.Snapshot
     max_depth: int
-    labels: Mapping[Any, str]
+    records: Records
 
 
 class Frame:
@@ -82,9 +83,8 @@ class Frame:
         origin: Origin | None = None,
     ) -> None:
         for name in ARRAYS:
-            view = arrays[name].view()
-            view.flags.writeable = False
-            object.__setattr__(self, name, view)
+            arrays[name].flags.writeable = False
+            object.__setattr__(self, name, arrays[name].view())  # a view cannot be made writeable again
         others = {"camera": camera, "tolerance": tolerance, "revision": revision, "stats": stats, "_origin": origin}
         for name, value in others.items():
             object.__setattr__(self, name, value)
@@ -143,13 +143,14 @@ class Frame:
         if self._origin is None:
             raise ValueError("Frame.explain: needs the scene, which a frame loses when it is pickled; render it again")
         tree = _core.explain(self._origin.snapshot, self.camera._native, x, y, self._origin.max_depth)
-        labels = {key: self._origin.labels[key] for key in ids(tree) if key in self._origin.labels}
+        found = {key: self._origin.records.get(*key) for key in ids(tree)}
+        labels = {key: record.label for key, record in found.items() if record is not None}
         id = int(self.object_id[y, x])
         return Explanation(
             x=x,
             y=y,
             object_id=id,
-            object=None if id < 0 else self._origin.labels.get(("object", id), f"object {id}"),
+            object=None if id < 0 else labels.get(("object", id), f"object {id}"),
             path=Path(int(self.path[y, x])),
             reason=Reason(int(self.reason[y, x])),
             error_bound=float(self.error_bound[y, x]),
@@ -164,7 +165,8 @@ class Frame:
         if not isinstance(other, Frame):
             return NotImplemented
         mine, its = (self.camera, self.tolerance, self.revision), (other.camera, other.tolerance, other.revision)
-        return mine == its and all(np.array_equal(getattr(self, name), getattr(other, name)) for name in ARRAYS)
+        pairs = ((getattr(self, name), getattr(other, name)) for name in ARRAYS)
+        return mine == its and all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
 
     __hash__ = None  # type: ignore[assignment]  # compared by content, like arrays
 

@@ -30,8 +30,7 @@ class Handle:
         self._scene, self._id, self._stamp = scene, id, stamp
 
     def _find(self) -> ObjectRecord | LightRecord | None:
-        records = self._scene._records
-        record = records.objects.get(self._id) if self._kind == "object" else records.lights.get(self._id)
+        record = self._scene._records.get(self._kind, self._id)
         return record if record is not None and record.stamp == self._stamp else None
 
     def _removed(self) -> ReferenceError:

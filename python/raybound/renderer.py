@@ -6,8 +6,9 @@ import logging
 import threading
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, fields
 from types import TracebackType
-from typing import Any, NamedTuple, NoReturn, Self
+from typing import Any, NoReturn, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -45,10 +46,12 @@ CELL = np.dtype(
 logger = logging.getLogger("raybound")
 
 
-class TraceResult(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class TraceResult:
     """What `Renderer.trace` returns for n rays.
 
     radiance (n, 3), error_bound (n,): float32; path, reason (n,): uint8; object_id (n,): int32, -1 for the background.
+    Two results are equal if all arrays are.
     """
 
     radiance: FloatArray
@@ -56,6 +59,14 @@ class TraceResult(NamedTuple):
     path: npt.NDArray[np.uint8]
     reason: npt.NDArray[np.uint8]
     object_id: npt.NDArray[np.int32]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, TraceResult):
+            return NotImplemented
+        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
+
+    __hash__ = None  # type: ignore[assignment]  # compared by content, like arrays
 
 
 class Renderer:
@@ -151,8 +162,10 @@ class Renderer:
 
         `progress` as in `render`, over the whole sequence.
         """
-        views = [self._camera("Renderer.sequence", cam) for cam in cameras]
-        _progress.check("Renderer.sequence", progress)
+        who = "Renderer.sequence"
+        _validate.instance(who, "cameras", cameras, Iterable, "a sequence of Cameras")  # type: ignore[type-abstract]
+        views = [_validate.instance(who, f"cameras[{i}]", cam, Camera) for i, cam in enumerate(cameras)]
+        _progress.check(who, progress)
         return self._sequence(views, progress)
 
     def _render(self, camera: Camera, report: ProgressCall | None) -> Frame:

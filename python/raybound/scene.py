@@ -35,25 +35,19 @@ class Scene:
     Two scenes are equal if they have equal contents in equal order; ids and revisions do not count.
     """
 
+    # So that assigning to a misspelt name is an error.
+    __slots__ = ("__weakref__", "_committed", "_document", "_lock", "_next_stamp", "_records")
+
     def __init__(self, ambient: npt.ArrayLike = (0.0, 0.0, 0.0), background: npt.ArrayLike = (0.0, 0.0, 0.0)) -> None:
         records = Records(_validate.rgb("Scene", "ambient", ambient), _validate.rgb("Scene", "background", background))
         self._begin(_core.Document(packed(records.ambient), packed(records.background)), records)
 
-    def _begin(self, document: _core.Document, records: Records) -> None:
+    def _begin(self, document: _core.Document, records: Records, next_stamp: int = 0) -> None:
         self._lock = threading.RLock()
         self._document = document
         self._records = records
-        self._editing = False
-        stamps = [record.stamp for group in (records.objects, records.lights) for record in group.values()]
-        self._next_stamp = max(stamps, default=-1) + 1  # never goes back, not even by a rollback
-        self._labels: dict[tuple[Kind, int], str] = {}  # only grows: old frames explain themselves with it
-        self._relabel()
-
-    def _relabel(self) -> None:
-        for id, record in self._records.objects.items():
-            self._labels["object", id] = _label(record.name, record.shape)
-        for id, lamp in self._records.lights.items():
-            self._labels["light", id] = _label(lamp.name, lamp.light)
+        self._committed = records  # what renderers see: differs from `_records` inside an `edit` block only
+        self._next_stamp = next_stamp  # never goes back, not even by a rollback
 
     # Adding
 
@@ -73,7 +67,6 @@ class Scene:
             id = self._document.add_object(shape._native, material._native, np.array(by.matrix))
             record = ObjectRecord(self._stamp(), name, shape, material, by)
             self._records.put("object", id, record)
-            self._labels["object", id] = _label(name, shape)
             return Object(self, id, record.stamp)
 
     def add_light(self, light: Light, name: str | None = None) -> LightHandle:
@@ -85,7 +78,6 @@ class Scene:
             id = self._document.add_light(light._native)
             record = LightRecord(self._stamp(), name, light)
             self._records.put("light", id, record)
-            self._labels["light", id] = _label(name, light)
             return LightHandle(self, id, record.stamp)
 
     def _stamp(self) -> int:
@@ -97,12 +89,10 @@ class Scene:
     def _set_object(self, id: int, record: ObjectRecord) -> None:
         self._document.set_object(id, record.shape._native, record.material._native, np.array(record.transform.matrix))
         self._records.put("object", id, record)
-        self._labels["object", id] = _label(record.name, record.shape)
 
     def _set_light(self, id: int, record: LightRecord) -> None:
         self._document.set_light(id, record.light._native)
         self._records.put("light", id, record)
-        self._labels["light", id] = _label(record.name, record.light)
 
     def _remove(self, kind: Kind, id: int) -> None:
         if kind == "object":
@@ -122,19 +112,20 @@ class Scene:
             if self._editing:
                 yield self
                 return
-            before = self._records
             self._document.begin_edit()
-            self._records, self._editing = before.copy(), True
             try:
+                self._records = self._committed.copy()
                 yield self
                 self._document.commit_edit()
+                self._committed = self._records
             except BaseException:
                 self._document.rollback_edit()
-                self._records = before
-                self._relabel()
+                self._records = self._committed
                 raise
-            finally:
-                self._editing = False
+
+    @property
+    def _editing(self) -> bool:
+        return self._records is not self._committed
 
     # Reading
 
@@ -215,8 +206,8 @@ class Scene:
             return item._scene is self and item._find() is not None
         return isinstance(item, str) and item in self._records.names
 
-    def __getitem__(self, name: str) -> Object | LightHandle:
-        """The handle of the object or light of that name; KeyError if there is none."""
+    def __getitem__(self, name: str) -> Any:
+        """The handle of that name, an `Object` or a `LightHandle`; KeyError if there is none."""
         if not isinstance(name, str):
             raise TypeError(f"Scene: a key must be the name of an object or light, got {_validate.describe(name)}")
         with self._lock:
@@ -253,9 +244,9 @@ class Scene:
         """
         with self._lock:
             if self._editing:  # the core's document shows the state before the block until it ends
-                return _restore_scene(self._records.copy())
+                return _restore_scene(self._records.copy(), self._next_stamp)
             result = object.__new__(Scene)
-            result._begin(self._document.copy(), self._records.copy())
+            result._begin(self._document.copy(), self._records.copy(), self._next_stamp)
             return result
 
     def to_dict(self) -> dict[str, Any]:
@@ -294,7 +285,7 @@ class Scene:
 
     def __reduce__(self) -> tuple[Any, ...]:
         with self._lock:
-            return _restore_scene, (self._records.copy(),)
+            return _restore_scene, (self._records.copy(), self._next_stamp)
 
     def __repr__(self) -> str:
         with self._lock:
@@ -302,23 +293,17 @@ class Scene:
         return f"<Scene: {objects} objects, {lights} lights, revision {self.revision}>"
 
 
-def _label(name: str | None, value: object) -> str:
-    """How explanations call an object or a light."""
-    kind = type(value).__name__
-    return kind if name is None else f"{name!r} ({kind})"
-
-
-def _restore_scene(records: Records) -> Scene:
+def _restore_scene(records: Records, next_stamp: int) -> Scene:
     """A scene with these records under their ids: gaps are filled with objects and lights that are removed again."""
     document = _core.Document(packed(records.ambient), packed(records.background))
     document.begin_edit()
-    for id in range(max(records.objects, default=-1) + 1):
+    for id in range(records.made["object"]):
         record = records.objects.get(id)
         if record is None:
             document.remove_object(document.add_object(Sphere()._native, Material()._native, np.eye(4)))
         else:
             document.add_object(record.shape._native, record.material._native, np.array(record.transform.matrix))
-    for id in range(max(records.lights, default=-1) + 1):
+    for id in range(records.made["light"]):
         lamp = records.lights.get(id)
         if lamp is None:
             document.remove_light(document.add_light(PointLight((0, 0, 0))._native))
@@ -326,5 +311,5 @@ def _restore_scene(records: Records) -> Scene:
             document.add_light(lamp.light._native)
     document.commit_edit()
     result = object.__new__(Scene)
-    result._begin(document, records)
+    result._begin(document, records, next_stamp)
     return result

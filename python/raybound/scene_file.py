@@ -1,11 +1,15 @@
 """Scenes as plain JSON: `Scene.to_dict`, `Scene.from_dict`, `load_scene` and `Scene.save`.
 
-    {"format": "raybound scene", "version": 1, "ambient": [r, g, b], "background": [r, g, b], "camera": {"eye": ...} or
-    null,
-     "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat"}, {"texels": {"shape": [h, w, 3], "base64":
-     ...}}], "materials": [{"diffuse": [r, g, b] or number or {"texture": 0}, "specular": ...}], "objects": [{"name":
-     "ball", "shape": {"type": "Sphere", "center": ...}, "material": 0, "transform": [[4 x 4]]}], "lights": [{"name":
-     "lamp", "light": {"type": "PointLight", "position": ...}}]}
+    {"format": "raybound scene",
+     "version": 1,
+     "ambient": [r, g, b],
+     "background": [r, g, b],
+     "camera": {"eye": [x, y, z], ...} or null,
+     "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat"},
+                  {"texels": {"shape": [h, w, 3], "base64": "..."}}],
+     "materials": [{"diffuse": [r, g, b] or number or {"texture": 0}, "specular": ...}],
+     "objects": [{"name": "ball", "shape": {"type": "Sphere", ...}, "material": 0, "transform": [[4 x 4]]}],
+     "lights": [{"name": "lamp", "light": {"type": "PointLight", "position": [x, y, z], ...}}]}
 
 Shapes, lights, materials, textures and cameras are objects whose keys are their constructor's arguments; those with a
 default may be left out, and so may names, transforms and every list. Numbers are written with the digits that give the
@@ -49,15 +53,17 @@ class _Writer:
 
     def __init__(self, folder: str | None) -> None:
         self.folder = folder
-        self.materials: dict[Material, dict[str, Any]] = {}
-        self.textures: dict[Texture, dict[str, Any]] = {}
+        self.materials: list[dict[str, Any]] = []
+        self.textures: list[dict[str, Any]] = []
+        self.indices: dict[Material | Texture, int] = {}
 
     def value(self, value: object) -> Any:
         """A field's value as plain JSON."""
         if isinstance(value, Texture):
-            if value not in self.textures:
-                self.textures[value] = self.texture(value)
-            return {"texture": list(self.textures).index(value)}
+            if value not in self.indices:
+                self.indices[value] = len(self.textures)
+                self.textures.append(self.texture(value))
+            return {"texture": self.indices[value]}
         if isinstance(value, Transform):
             return _plain(value.matrix)
         if isinstance(value, Shape):
@@ -72,11 +78,11 @@ class _Writer:
     def typed(self, value: Value) -> dict[str, Any]:
         return {"type": type(value).__name__, **self.fields(value)}
 
-    def material(self, value: Material, indices: dict[Material, int]) -> int:
-        if value not in self.materials:
-            indices[value] = len(self.materials)
-            self.materials[value] = self.fields(value)
-        return indices[value]
+    def material(self, value: Material) -> int:
+        if value not in self.indices:
+            self.indices[value] = len(self.materials)
+            self.materials.append(self.fields(value))
+        return self.indices[value]
 
     def texture(self, value: Texture) -> dict[str, Any]:
         source: dict[str, Any] = {"scale": _plain(value.scale), "wrap": value.wrap}
@@ -106,12 +112,11 @@ def to_dict(scene: Scene, folder: str | None = None) -> dict[str, Any]:
     with scene._lock:
         records = scene._records.copy()
     writer = _Writer(folder)
-    indices: dict[Material, int] = {}
     objects = [
         {
             "name": record.name,
             "shape": writer.typed(record.shape),
-            "material": writer.material(record.material, indices),
+            "material": writer.material(record.material),
             "transform": writer.value(record.transform),
         }
         for record in records.objects.values()
@@ -122,8 +127,8 @@ def to_dict(scene: Scene, folder: str | None = None) -> dict[str, Any]:
         "ambient": _plain(records.ambient),
         "background": _plain(records.background),
         "camera": None if records.camera is None else writer.fields(records.camera),
-        "textures": list(writer.textures.values()),
-        "materials": list(writer.materials.values()),
+        "textures": writer.textures,
+        "materials": writer.materials,
         "objects": objects,
         "lights": [{"name": r.name, "light": writer.typed(r.light)} for r in records.lights.values()],
     }
@@ -167,7 +172,7 @@ def from_dict(d: Mapping[str, Any], folder: str | None = None, who: str = "Scene
     if d.get("format", FORMAT) != FORMAT or d.get("version", VERSION) != VERSION:
         found = f"{d.get('format')!r}, {d.get('version')!r}"
         raise ValueError(f"{who}: format and version must be {FORMAT!r}, {VERSION}, got {found}")
-    scene = Scene(d.get("ambient", 0.0), d.get("background", 0.0))
+    scene = _make(who, Scene, d.get("ambient", 0.0), d.get("background", 0.0))
     if d.get("camera") is not None:
         scene.camera = camera_from_dict(d["camera"], f"{who}: camera")
     textures = [_texture(item, folder, at) for at, item in _items(who, d, "textures")]

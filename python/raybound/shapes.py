@@ -44,7 +44,7 @@ class Sphere(Shape):
 
     def __init__(self, center: npt.ArrayLike = (0.0, 0.0, 0.0), radius: float = 1.0) -> None:
         self._set(center=_validate.vector("Sphere", "center", center))
-        self._set(radius=_validate.number("Sphere", "radius", radius))
+        self._set(radius=_validate.positive("Sphere", "radius", radius))
         self._set(_native=_core.sphere(packed(self.center), self.radius))
 
 
@@ -70,7 +70,7 @@ class Cylinder(Shape):
         self, base: npt.ArrayLike = (0.0, 0.0, 0.0), top: npt.ArrayLike = (0.0, 0.0, 1.0), *, radius: float = 1.0
     ) -> None:
         self._set(base=_validate.vector("Cylinder", "base", base), top=_validate.vector("Cylinder", "top", top))
-        self._set(radius=_validate.number("Cylinder", "radius", radius))
+        self._set(radius=_validate.positive("Cylinder", "radius", radius))
         self._set(_native=_core.cylinder(packed(self.base), packed(self.top), self.radius))
 
 
@@ -95,7 +95,7 @@ class Cone(Shape):
         top_radius: float = 0.0,
     ) -> None:
         self._set(base=_validate.vector("Cone", "base", base), apex=_validate.vector("Cone", "apex", apex))
-        self._set(radius=_validate.number("Cone", "radius", radius))
+        self._set(radius=_validate.positive("Cone", "radius", radius))
         self._set(top_radius=_validate.number("Cone", "top_radius", top_radius))
         self._set(_native=_core.cone(packed(self.base), packed(self.apex), self.radius, self.top_radius))
 
@@ -110,8 +110,10 @@ class Disk(Shape):
     def __init__(
         self, center: npt.ArrayLike = (0.0, 0.0, 0.0), normal: npt.ArrayLike = (0.0, 0.0, 1.0), *, radius: float = 1.0
     ) -> None:
-        self._set(center=_validate.vector("Disk", "center", center), normal=_validate.vector("Disk", "normal", normal))
-        self._set(radius=_validate.number("Disk", "radius", radius))
+        self._set(
+            center=_validate.vector("Disk", "center", center), normal=_validate.direction("Disk", "normal", normal)
+        )
+        self._set(radius=_validate.positive("Disk", "radius", radius))
         self._set(_native=_core.disk(packed(self.center), packed(self.normal), self.radius))
 
 
@@ -144,6 +146,9 @@ class _Combination(Shape):
         checked = tuple(_validate.instance(who, f"shape {i}", s, Shape, "a Shape") for i, s in enumerate(shapes))
         if not checked:
             raise ValueError(f"{who}: shapes must be one or more, got none")
+        for i, shape in enumerate(checked):
+            if not shape._native.is_solid:
+                raise ValueError(f"{who}: shape {i} must be a solid, got {_validate.describe(shape)}")
         self._set(shapes=checked)
         return [shape._native for shape in checked]
 

@@ -51,15 +51,15 @@ class Totals:
     """What a renderer has done so far."""
 
     def __init__(self) -> None:
-        self._frames = 0
-        self._stats = zero()
+        self._stats = {"frames": 0, **zero()}
 
     def add_frame(self, stats: Mapping[str, Any]) -> None:
         """Counts one more frame."""
-        self._frames += 1
-        add(self._stats, stats)
-        self._stats.update(threads=stats["threads"], bytes=stats["bytes"])  # states, not amounts
+        total = self.as_dict()  # a new one each time, as another thread may be reading
+        add(total, {"frames": 1, **stats})
+        total.update(threads=stats["threads"], bytes=stats["bytes"])  # states, not amounts
+        self._stats = total
 
     def as_dict(self) -> dict[str, Any]:
         """A copy: the keys of a frame's statistics, added up, and the number of "frames"."""
-        return {"frames": self._frames, **copy.deepcopy(self._stats)}
+        return copy.deepcopy(self._stats)

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _validate, images
 from ._validate import DoubleArray
+from .enums import Path as Kind
 from .frame import Frame
 
 
@@ -53,7 +54,7 @@ def assert_within_bound(frame: Frame, reference: Frame, *, directory: str | os.P
     raise AssertionError(
         f"assert_within_bound: {int(outside.sum())} of {outside.size} pixels lie outside their bounds; "
         f"worst at (x, y) = ({x}, {y}): error {error[y, x]:.9g}, bound {bound[y, x]:.9g}, "
-        f"path {frame.path[y, x]}; pictures in {folder}"
+        f"path {Kind(int(frame.path[y, x])).name}; pictures in {folder}"
     )
 
 

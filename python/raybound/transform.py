@@ -64,14 +64,18 @@ class Transform(Value):
         `axis`: 3 numbers, non-zero, of any length.
         """
         angle = _validate.double("Transform.rotate", "degrees", degrees)
-        about = _doubles("Transform.rotate", "axis", axis, (3,))
+        _validate.direction("Transform.rotate", "axis", axis)
+        about = np.array(axis, np.float64, order="C")
         return cls._of(_core.transform_rotate(angle, about), "Transform.rotate")
 
     @classmethod
     def scale(cls, s: npt.ArrayLike) -> Transform:
         """Scales by `s`, a number or three (x, y, z), about the origin. Zero is singular: ValueError."""
-        is_vector = isinstance(s, (list, tuple)) or (isinstance(s, np.ndarray) and s.ndim > 0)
-        factors = _doubles("Transform.scale", "s", s, (3,) if is_vector else ())
+        expected = "a number or three numbers, none of them 0"
+        factors = _validate.numeric("Transform.scale", "s", s, expected)
+        factors = _doubles("Transform.scale", "s", s, (3,) if factors.ndim else ())
+        if not factors.all():
+            raise ValueError(f"Transform.scale: s must be {expected}, got {_validate.describe(s)}")
         return cls._of(np.diag(np.append(np.broadcast_to(factors, 3), 1.0)), "Transform.scale")
 
     def __matmul__(self, other: object) -> Transform:
@@ -99,7 +103,10 @@ def _doubles(who: str, name: str, value: object, shape: tuple[int, ...]) -> Doub
 
 
 def _matrix(who: str, value: object) -> DoubleArray:
-    return _doubles(who, "matrix", value, (4, 4))
+    matrix = _doubles(who, "matrix", value, (4, 4))
+    if matrix[3].tolist() != [0, 0, 0, 1]:
+        raise ValueError(f"{who}: matrix must have the last row (0, 0, 0, 1), got {tuple(matrix[3].tolist())}")
+    return matrix
 
 
 def rounded(who: str, name: str, value: object) -> Transform:

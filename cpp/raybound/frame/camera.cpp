@@ -1,5 +1,7 @@
 #include "raybound/frame/camera.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "raybound/geometry/rotation.h"
@@ -10,6 +12,7 @@ namespace raybound {
 namespace {
 
 constexpr double radians = elementary::pi / 180;
+constexpr std::int64_t most_pixels = std::int64_t(1) << 27;  // 4.4 GB of buffers
 
 struct Basis {
     Vec3d forward, right, upward;
@@ -35,10 +38,10 @@ Camera::Camera(const Vec3f& eye, const Vec3f& target, const Vec3f& up, float fov
     const double sine = length(cross(normalize(Vec3d(target) - Vec3d(eye)), normalize(Vec3d(up))));
     if (!(sine > 1e-6)) refuse("up must not be parallel to the view, got up " + format(up));
     if (!(fov >= 1e-3f && fov <= 179.9f)) refuse("fov must be within 0.001 and 179.9 degrees, got " + format(fov));
-    for (const int size : {width, height})
-        if (size < 1 || size > 65536)
-            refuse("width and height must be within 1 and 65536, got " + std::to_string(width) + "x" +
-                   std::to_string(height));
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    if (std::min(width, height) < 1 || std::max(width, height) > 65536)
+        refuse("width and height must be within 1 and 65536, got " + size);
+    if (std::int64_t(width) * height > most_pixels) refuse("width * height must be at most 2**27, got " + size);
     const Basis b = basis(eye, target, up);
     forward_ = Vec3f(b.forward);
     right_ = Vec3f(b.right);

@@ -80,6 +80,10 @@ inline T max_component(const Vec3<T>& a) {
     return maximum(maximum(a.x, a.y), a.z);
 }
 template <class T>
+inline T min_component(const Vec3<T>& a) {
+    return minimum(minimum(a.x, a.y), a.z);
+}
+template <class T>
 inline Vec3<T> select(Mask<T> mask, const Vec3<T>& yes, const Vec3<T>& no) {
     return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }

@@ -35,7 +35,7 @@ constexpr T gamma(int n) {
     return T(n) * 0;  // the sabotage build: every rounding bound is gone, and the tests must notice
 #else
     const double nu = n * double(NumberTraits<T>::unit_roundoff);
-    return next_float_up(T(nu / (1 - nu)));
+    return n > 0 ? next_float_up(T(nu / (1 - nu))) : T(0);
 #endif
 }
 

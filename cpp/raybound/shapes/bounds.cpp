@@ -42,6 +42,12 @@ Boxd frame_bounds(const Shape& shape, const Affine& frame) {
     return box;
 }
 
+// Parts that overlap in one position of the axes and not in another enclose nothing: bounds of no extent then.
+Boxd collapsed(const Boxd& box) {
+    const Vec3d middle = box.center();
+    return {minimum(box.lower, middle), maximum(box.upper, middle)};
+}
+
 }  // namespace
 
 Box conservative_box(const Boxd& box) {
@@ -78,7 +84,7 @@ Boxd shape_bounds(const Shape& shape, const Affine& placement) {
     Boxd box;
     switch (shape.kind()) {
         case ShapeKind::polygon:
-            for (const Vec3f& v : shape.vertices()) box.extend(Vec3d(Vec3f(placement.point(Vec3d(v)))));
+            for (const Vec3f& v : shape.vertices()) box.extend(placement.point(Vec3d(v)));
             return box;
         case ShapeKind::transformed:
             return shape_bounds(*shape.parts()[0], placement * shape.transform());
@@ -88,7 +94,7 @@ Boxd shape_bounds(const Shape& shape, const Affine& placement) {
         case ShapeKind::csg_intersection:
             box = shape_bounds(*shape.parts()[0], placement);
             for (const auto& part : shape.parts()) box = intersection(box, shape_bounds(*part, placement));
-            return box;
+            return collapsed(box);
         default:
             return frame_bounds(shape, placement * unit_frame(shape));
     }

@@ -15,11 +15,11 @@ bool is_positive_diagonal(const Mat3<double>& m) {
            m.row[1].y > 0 && m.row[2].z > 0;
 }
 
-Vec3f rounded(const Vec3d& v, float& error) {
-    const Vec3f f(v);
-    const Vec3d off = absolute(Vec3d(f) - v);
-    error = maximum(error, next_float_up(float(length(off))));
-    return f;
+// What placing a point in double may be off; nothing where the map does nothing.
+float placement_error(const Affine& placement, const Vec3d& p) {
+    if (placement.is_identity()) return 0;
+    const double reach = norm_infinity(placement.linear) * norm1(p) + norm1(placement.offset);
+    return next_float_up(float(0x1p-50 * reach));
 }
 
 LeafKind leaf_kind(ShapeKind kind) { return static_cast<LeafKind>(kind); }
@@ -65,20 +65,19 @@ float frame_surface_error(const Frame& frame, const Affine& unit) {
     return next_float_up(float(moved));
 }
 
-PolygonPlane make_plane(const std::vector<Vec3f>& v) {
+PolygonPlane make_plane(const std::vector<Vec3d>& v) {
     Vec3d normal;
-    for (std::size_t i = 0; i < v.size(); ++i)
-        normal = normal + cross(Vec3d(v[i]) - Vec3d(v[0]), Vec3d(v[(i + 1) % v.size()]) - Vec3d(v[0]));
+    for (std::size_t i = 0; i < v.size(); ++i) normal = normal + cross(v[i] - v[0], v[(i + 1) % v.size()] - v[0]);
     const Vec3d a = absolute(normal);
     PolygonPlane plane;
     plane.axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
     plane.slope_i = normal[(plane.axis + 1) % 3] / normal[plane.axis];
     plane.slope_j = normal[(plane.axis + 2) % 3] / normal[plane.axis];
     plane.orientation = normal[plane.axis] > 0 ? 1.0f : -1.0f;
-    const Vec3d u = normalize(Vec3d(v[1]) - Vec3d(v[0])), w = cross(normalize(normal), u);
+    const Vec3d u = normalize(v[1] - v[0]), w = cross(normalize(normal), u);
     double u_low = 0, u_high = 0, w_low = 0, w_high = 0;
-    for (const Vec3f& p : v) {
-        const Vec3d r = Vec3d(p) - Vec3d(v[0]);
+    for (const Vec3d& p : v) {
+        const Vec3d r = p - v[0];
         u_low = std::min(u_low, dot(u, r)), u_high = std::max(u_high, dot(u, r));
         w_low = std::min(w_low, dot(w, r)), w_high = std::max(w_high, dot(w, r));
     }
@@ -90,8 +89,11 @@ PolygonPlane make_plane(const std::vector<Vec3f>& v) {
 }
 
 void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Affine& placement) {
-    std::vector<Vec3f> placed;
-    for (const Vec3f& v : shape.vertices()) placed.push_back(rounded(placement.point(Vec3d(v)), leaf.surface_error));
+    std::vector<Vec3d> placed;
+    for (const Vec3f& v : shape.vertices()) {
+        placed.push_back(placement.point(Vec3d(v)));
+        leaf.surface_error = maximum(leaf.surface_error, placement_error(placement, Vec3d(v)));
+    }
     PolygonPlane plane = make_plane(placed);
     if (determinant(placement.linear) < 0) plane.orientation = -plane.orientation;  // a mirror keeps outside outside
     if (!is_finite(Vec3d(plane.slope_i, plane.slope_j, 0)) || !is_finite(plane.u_axis) || !is_finite(plane.v_axis))
@@ -99,10 +101,10 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
             "Polygon: the transform must keep the vertices apart, they collapse when rounded to float32");
     plane.first_vertex = std::uint32_t(geometry.vertices.size());
     plane.vertex_count = std::uint32_t(placed.size());
-    // The plane passes through the first vertex; the others are off it by their rounding, or by the user's.
-    for (const Vec3f& v : placed) {
-        const auto form = plane_form(plane, Vec3d(placed[0]), Vec3d(v));
-        leaf.surface_error = maximum(leaf.surface_error, next_float_up(float(std::abs(form.value))));
+    // The plane passes through the first vertex; the user may have rounded the others off it.
+    for (const Vec3d& v : placed) {
+        const double off = plane_form(plane, placed[0], v).value;
+        leaf.surface_error = maximum(leaf.surface_error, next_float_up(float(std::abs(off))));
     }
     leaf.polygon = std::uint32_t(geometry.polygons.size());
     geometry.vertices.insert(geometry.vertices.end(), placed.begin(), placed.end());
@@ -111,19 +113,23 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
 
 // Spheres under a similarity without rotation, and boxes under translation and scaling, need no frame.
 bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
-    if (shape.kind() == ShapeKind::sphere && is_scaled_identity(placement.linear)) {
-        leaf.first = rounded(placement.point(Vec3d(shape.first())), leaf.surface_error);
-        const double radius = placement.linear.row[0].x * double(shape.radius());
-        leaf.radius = float(radius);
-        leaf.surface_error += float(std::abs(double(leaf.radius) - radius)) * (1 + 0x1p-20f);
-        return true;
+    const bool sphere = shape.kind() == ShapeKind::sphere && is_scaled_identity(placement.linear);
+    const bool box = shape.kind() == ShapeKind::box && is_positive_diagonal(placement.linear);
+    if (!sphere && !box) return false;
+    const Vec3d first(shape.first()), second(shape.second());
+    leaf.first = placement.point(first);
+    leaf.surface_error = placement_error(placement, first);
+    if (sphere) {
+        leaf.radius = placement.linear.row[0].x * double(shape.radius());
+        leaf.surface_error += placement_error(placement, {double(shape.radius()), 0, 0});
+    } else {
+        leaf.second = placement.point(second);
+        leaf.surface_error = maximum(leaf.surface_error, placement_error(placement, second));
     }
-    if (shape.kind() == ShapeKind::box && is_positive_diagonal(placement.linear)) {
-        leaf.first = rounded(placement.point(Vec3d(shape.first())), leaf.surface_error);
-        leaf.second = rounded(placement.point(Vec3d(shape.second())), leaf.surface_error);
-        return leaf.first.x < leaf.second.x && leaf.first.y < leaf.second.y && leaf.first.z < leaf.second.z;
-    }
-    return false;
+    const double size = sphere ? leaf.radius : min_component(leaf.second - leaf.first);
+    if (!(size >= 0.5 * double(least_size)))
+        throw std::invalid_argument("Shape: transforms must keep sizes at least 2**-60, got " + format(size));
+    return true;
 }
 
 std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& placement) {
@@ -173,8 +179,7 @@ const Shape& strip_transforms(const Shape& shape, Affine& placement) {
     return *inner;
 }
 
-// The box of what is really there: a polygon's and an unframed leaf's own floats, which differ from the description's
-// by their rounding.
+// The box of what is really there, which differs from the description by the leaves' errors.
 Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine& placement, std::uint32_t first_leaf) {
     Boxd box = shape_bounds(shape, placement);
     double error = 0;

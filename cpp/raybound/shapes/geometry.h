@@ -25,15 +25,16 @@ struct Frame {
     double inverse_norm = 1;  // of A^-1: how far a local distance reaches in the world
 };
 
-// A convex primitive. Without a frame it stands in world coordinates: a sphere (first, radius), a box (first, second),
-// a polygon. surface_error bounds how far the surface that the leaf describes is from the one the user described.
+// A convex primitive. Without a frame it stands in world coordinates, placed in double: a sphere (first, radius), a box
+// (first, second), a polygon. surface_error bounds how far the surface that the leaf describes is from the one the user
+// described.
 struct Leaf {
     LeafKind kind = LeafKind::sphere;
     std::int32_t frame = -1;
     std::uint32_t polygon = 0;
     float surface_error = 0;
-    Vec3f first, second;
-    float radius = 0;
+    Vec3d first, second;
+    double radius = 0;
 };
 
 enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection };
@@ -59,11 +60,11 @@ struct Geometry {
     std::vector<Leaf> leaves;
     std::vector<Frame> frames;
     std::vector<PolygonPlane> polygons;
-    std::vector<Vec3f> vertices;
+    std::vector<Vec3d> vertices;
     std::vector<CsgNode> csg_nodes;
     std::vector<std::uint32_t> csg_children;
 
-    std::span<const Vec3f> polygon_vertices(const PolygonPlane& p) const {
+    std::span<const Vec3d> polygon_vertices(const PolygonPlane& p) const {
         return {vertices.data() + p.first_vertex, p.vertex_count};
     }
     std::size_t bytes() const;

@@ -29,14 +29,6 @@ Crossing<W> cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<W>
     return {infinity<W>, 0, 0, 0, Mask<W>(false)};
 }
 
-// Second-order coefficients of F are at most this along a unit direction: that of the sphere's form in its coordinates.
-template <class W>
-W curvature_bound(const Geometry& geometry, const Leaf& leaf) {
-    if (leaf.frame < 0) return W(1);
-    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
-    return W(3) * square(W(frame.norm)) * maximum(W(1), square(W(frame.slope)));
-}
-
 // From any point: the surface is no farther than a known point of the solid and the solid's size; near the apex of a
 // cone, where the gradient vanishes, no farther than the apex.
 template <class W>
@@ -53,13 +45,14 @@ W distance_anywhere(const Geometry& geometry, const Leaf& leaf, int face, const 
 
 // How far a polished point can be from the surface (derivation D3). Four bands: the error of F there, that of F at the
 // origin spawned from it, and as much again, so that the kernel is sure of its side. |F| / |grad F| is a bound where F
-// is as good as linear from here to the surface.
+// along the normal is as good as linear from here to the surface.
 template <class W>
-W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<W>& p, const Surface<W>& surface) {
+W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<W>& p, const Surface<W>& surface,
+                   const Vec3<W>& normal) {
     const W squared = dot(surface.gradient, surface.gradient);
     const W residual = abs(surface.form.value) + W(4) * surface.form.band;
-    const bool linear = residual * curvature_bound<W>(geometry, leaf) <= W(0x1p-11) * squared;
-    if (linear || surface.curvature == W(0)) return residual / sqrt(squared) * (W(1) + W(0x1p-10));
+    const W bend = abs(leaf_surface(geometry, leaf, face, p, normal).curvature);
+    if (residual * bend <= W(0x1p-11) * squared) return residual / sqrt(squared) * (W(1) + W(0x1p-10));
     return distance_anywhere(geometry, leaf, face, p);
 }
 
@@ -129,7 +122,7 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
     const auto [exact, surface] =
         polish(geometry, leaf, crossing.face, ray.origin + ray.direction * crossing.t, ray.direction);
     const Vec3<W> normal = unit_normal(geometry, leaf, surface, ray.direction);
-    const W distance = surface_distance(geometry, leaf, crossing.face, exact, surface) + W(leaf.surface_error);
+    const W distance = surface_distance(geometry, leaf, crossing.face, exact, surface, normal) + W(leaf.surface_error);
 
     SurfacePoint<T> hit;
     hit.t = T(crossing.t);

@@ -52,11 +52,11 @@ inline LocalRay<T> local_ray(const Frame& frame, const Ray<T>& ray) {
             T(frame.norm) * gamma<T>(5) * norm1(ray.direction)};
 }
 
-// Without a frame: a sphere's origin is moved by its exact centre, with one rounding.
+// Without a frame: a sphere's origin is moved by its centre, with one rounding of each.
 template <class T>
 inline LocalPoint<T> to_sphere(const Leaf& leaf, const Vec3<T>& p) {
     const Vec3<T> y = p - Vec3<T>(leaf.first);
-    return {y, gamma<T>(1) * max_component(absolute(y))};
+    return {y, gamma<T>(2) * (max_component(absolute(y)) + max_component(absolute(Vec3<T>(leaf.first))))};
 }
 
 template <class T>

@@ -59,12 +59,12 @@ struct Shear {
 // ax by - ay bx is that of the exact value of the sheared coordinates, or it is zero (rounding is monotone; seeds/000,
 // 3.9.3), and zero counts for both sides.
 template <class T>
-inline bool line_pierces(std::span<const Vec3f> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
+inline bool line_pierces(std::span<const Vec3d> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
     const Shear<T> shear(direction);
     const Vec3<T> last = Vec3<T>(vertices.back()) - origin;
     T ax = shear.x(last), ay = shear.y(last);
     bool left = true, right = true;
-    for (const Vec3f& vertex : vertices) {
+    for (const Vec3d& vertex : vertices) {
         const Vec3<T> b = Vec3<T>(vertex) - origin;
         const T bx = shear.x(b), by = shear.y(b);
         const T side = ax * by - ay * bx;
@@ -78,7 +78,7 @@ inline bool line_pierces(std::span<const Vec3f> vertices, const Vec3<T>& origin,
 }
 
 template <class T>
-inline Span<T> polygon_span(const PolygonPlane& plane, std::span<const Vec3f> vertices, const Ray<T>& ray) {
+inline Span<T> polygon_span(const PolygonPlane& plane, std::span<const Vec3d> vertices, const Ray<T>& ray) {
     const Banded<T> height = plane_form(plane, Vec3<T>(vertices[0]), ray.origin);
     const Vec3<T> gradient = plane_gradient<T>(plane);
     const T steepness = dot(absolute(gradient), absolute(ray.direction));

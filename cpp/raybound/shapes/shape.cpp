@@ -60,11 +60,18 @@ void require_convex(const std::vector<Vec3f>& vertices, const Vec3d& unit, doubl
             refuse("Polygon: vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % n) + " coincide");
         const double left = dot(unit, cross(ab, bc));
         if (left < -1e-6 * extent * maximum(length(ab), length(bc)))
-            refuse("Polygon: vertices must be convex, vertex " + std::to_string((i + 1) % n) + " turns inward");
+            refuse("Polygon: vertices must be convex, vertex " + std::to_string((i + 1) % n) + " turns inward at " +
+                   format(vertices[(i + 1) % n]));
         turns += std::atan2(left, dot(ab, bc));
     }
     if (std::abs(turns - 6.283185307179586) > 0.1)
         refuse("Polygon: vertices must go around once, they cross themselves");
+}
+
+Boxd overlap(const std::vector<ShapePointer>& parts) {
+    Boxd box = shape_bounds(*parts[0], {});
+    for (const auto& part : parts) box = intersection(box, shape_bounds(*part, {}));
+    return box;
 }
 
 }  // namespace
@@ -156,7 +163,8 @@ ShapePointer Shape::polygon(std::vector<Vec3f> vertices) {
     const Vec3d normal = newell_normal(vertices);
     const double area = length(normal);
     if (!(area > 1e-7 * extent * extent) || extent < double(least_size))
-        refuse("Polygon: vertices must not be collinear");
+        refuse("Polygon: vertices must not be collinear, got an area of " + format(area / 2) + " over an extent of " +
+               format(extent));
     const Vec3d unit = normal * (1 / area);
     require_planar(vertices, unit);
     require_convex(vertices, unit, extent);
@@ -175,7 +183,7 @@ ShapePointer Shape::combine(ShapeKind operation, std::vector<ShapePointer> parts
     auto* shape = new Shape(operation);
     shape->parts_ = std::move(parts);
     ShapePointer pointer(shape);
-    if (shape_bounds(*pointer, {}).is_empty())
+    if (!is_union && overlap(pointer->parts()).is_empty())
         refuse(name + ": the parts do not overlap, their intersection encloses nothing");
     return pointer;
 }

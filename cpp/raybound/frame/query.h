@@ -1,8 +1,10 @@
-// Questions about rays, many at once: what they hit, whether segments are blocked, how one shape answers.
+// Questions about rays, many at once and on all cores: what they hit, whether segments are blocked, how one shape
+// answers. `watch` is called while they are computed and may throw to cancel them.
 #pragma once
 
 #include <span>
 
+#include "raybound/frame/work_queue.h"
 #include "raybound/trace/search.h"
 
 namespace raybound {
@@ -17,11 +19,11 @@ struct HitRecord {
 
 // t is in units of each direction's length. Throws std::invalid_argument for a zero direction.
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
-                                      std::span<const Vec3f> directions);
+                                      std::span<const Vec3f> directions, const Watch& watch);
 
 // Is there anything certainly between origin and target? Origins are taken as they are, nothing is offset.
 std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
-                                   std::span<const Vec3f> targets);
+                                   std::span<const Vec3f> targets, const Watch& watch);
 
 // How an origin is moved off a surface: by the error bounds, or, to measure against, by a fixed or a scaled epsilon
 // (seeds/004).
@@ -38,6 +40,6 @@ struct ShapeHitRecord {
 // One shape alone, with the kernels of type T.
 template <class T>
 std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
-                                            std::span<const Vec3d> directions, Offsets offsets);
+                                            std::span<const Vec3d> directions, Offsets offsets, const Watch& watch);
 
 }  // namespace raybound

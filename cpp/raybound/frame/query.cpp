@@ -1,5 +1,6 @@
-#include "raybound/trace/query.h"
+#include "raybound/frame/query.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -71,55 +72,67 @@ void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossin
           record.next_origin);
 }
 
+// Calls answer(i) for every i in [0, count), in chunks, on all cores.
+template <class Answer>
+void answer_all(std::size_t count, const Watch& watch, const Answer& answer) {
+    constexpr std::size_t chunk = 512;
+    std::atomic<bool> cancelled = false;
+    const auto work = [&](int item, int) {
+        const std::size_t begin = std::size_t(item) * chunk;
+        for (std::size_t i = begin; i < std::min(count, begin + chunk); ++i) answer(i);
+    };
+    run_work(int((count + chunk - 1) / chunk), 0, cancelled, work, watch);
+}
+
 }  // namespace
 
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
-                                      std::span<const Vec3f> directions) {
+                                      std::span<const Vec3f> directions, const Watch& watch) {
     auto records = blank_records<HitRecord>(origins.size());
-    for (std::size_t i = 0; i < origins.size(); ++i) {
+    answer_all(origins.size(), watch, [&](std::size_t i) {
         records[i].t = infinity<float>;
         records[i].object_id = records[i].face_id = -1;
         float scale;
         const Ray<float> ray = user_ray(origins[i], directions[i], scale, i);
         const Nearest<float> nearest = closest_hit(scene, ray);
         if (nearest.hit) fill_record(records[i], scene, nearest, ray, scale);
-    }
+    });
     return records;
 }
 
 std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
-                                   std::span<const Vec3f> targets) {
+                                   std::span<const Vec3f> targets, const Watch& watch) {
     std::vector<std::uint8_t> blocked(origins.size());
-    for (std::size_t i = 0; i < origins.size(); ++i) {
-        if (origins[i] == targets[i]) continue;
+    answer_all(origins.size(), watch, [&](std::size_t i) {
+        if (origins[i] == targets[i]) return;
         blocked[i] = is_blocked(scene, make_segment(origins[i], targets[i]), nullptr);
-    }
+    });
     return blocked;
 }
 
 template <class T>
 std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
-                                            std::span<const Vec3d> directions, Offsets offsets) {
+                                            std::span<const Vec3d> directions, Offsets offsets, const Watch& watch) {
     Geometry geometry;
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
     auto records = blank_records<ShapeHitRecord>(origins.size());
-    for (std::size_t i = 0; i < origins.size(); ++i) {
+    answer_all(origins.size(), watch, [&](std::size_t i) {
         records[i].t = infinity<double>;
         records[i].face_id = -1;
         T scale, entry;
         const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale, i);
-        if (!crosses(primitive.bounds, ray, infinity<T>, &entry)) continue;
+        if (!crosses(primitive.bounds, ray, infinity<T>, &entry)) return;
         const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, WideRay<T>(ray));
         if (crossing.hit && T(crossing.t) < infinity<T>)
             fill_record(records[i], geometry, crossing, ray, scale, offsets);
-    }
+    });
     return records;
 }
 
 template std::vector<ShapeHitRecord> intersect_shape<float>(const Shape&, std::span<const Vec3d>,
-                                                            std::span<const Vec3d>, Offsets);
+                                                            std::span<const Vec3d>, Offsets, const Watch&);
 template std::vector<ShapeHitRecord> intersect_shape<double>(const Shape&, std::span<const Vec3d>,
-                                                             std::span<const Vec3d>, Offsets);
+                                                             std::span<const Vec3d>, Offsets, const Watch&);
 
 }  // namespace raybound

@@ -1,0 +1,48 @@
+"""Random nested CSG expressions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import raybound as rb
+
+from .support_shapes import SOLIDS, Rng, affine, transform_about, unit
+
+
+def free_solid(rng: Rng) -> rb.Shape:
+    kind = list(SOLIDS)[rng.integers(len(SOLIDS))]
+    solid = SOLIDS[kind](rng, rng.uniform(0.5, 1.5), rng.normal(size=3) * 0.5)
+    if rng.random() < 0.4:
+        solid = solid.transformed(transform_about(affine(rng, stretch=1.5), np.zeros(3), rng.normal(size=3) * 0.3))
+    return solid
+
+
+def grid_solid(rng: Rng) -> rb.Shape:
+    """On small whole numbers, so that many faces coincide."""
+    corner, kind = rng.integers(-2, 3, 3), rng.integers(4)
+    if kind < 2:
+        return rb.Box(corner, corner + rng.integers(1, 4, 3))
+    if kind == 2:
+        return rb.Sphere(corner, int(rng.integers(1, 3)))
+    axis = np.eye(3)[rng.integers(3)] * rng.integers(1, 4)
+    return rb.Cylinder(corner, corner + axis, radius=int(rng.integers(1, 3)))
+
+
+def expression(rng: Rng, depth: int, *, grid: bool) -> rb.Shape:
+    if depth == 0 or rng.random() < 0.2:
+        return grid_solid(rng) if grid else free_solid(rng)
+    parts = [expression(rng, depth - 1, grid=grid) for _ in range(rng.integers(2, 4))]
+    shape: rb.Shape = rb.Union(*parts)
+    if rng.random() < 0.45:
+        try:
+            shape = rb.Intersection(*parts)
+        except ValueError:
+            pass  # disjoint
+    if rng.random() < 0.3:
+        shape = shape.transformed(rb.Transform.rotate(rng.uniform(0, 360), unit(rng)))
+    return shape
+
+
+def is_thick(shape: rb.Shape) -> bool:
+    """Has it an inside, as far as its bounds tell?"""
+    return bool((shape.bounds[1] > shape.bounds[0]).all())
