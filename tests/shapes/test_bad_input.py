@@ -190,8 +190,8 @@ def test_transforms_of_wrong_types() -> None:
 
 
 def test_vertices_that_a_transform_makes_one_are_refused() -> None:
-    """Float32 cannot hold a unit square at 1e9: not as an object's shape, and not with rays."""
-    far = rb.Transform.translate(1e9, 0, 0)
+    """Numbers cannot hold a unit square at 1e17: not as an object's shape, and not with rays."""
+    far = rb.Transform.translate(1e17, 0, 0)
     scene = rb.Scene()
     refused(lambda: scene.add(rb.Polygon(SQUARE).transformed(far), rb.Material()), "Polygon")
     refused(lambda: scene.add(rb.Polygon(SQUARE), rb.Material(), transform=far), "Polygon")

@@ -14,7 +14,8 @@ inline Span<T> box_span(const LocalRay<T>& ray, const Vec3<T>& lower, const Vec3
 }
 
 template <class T>
-inline Surface<T> box_surface(const Vec3<T>& y, int face, const Vec3<T>& lower, const Vec3<T>& upper, T error) {
+inline Surface<T> box_surface(const Vec3<T>& y, int face, const Vec3<T>& lower, const Vec3<T>& upper,
+                              const Vec3<T>& error) {
     const int axis = face / 2;
     const bool high = face % 2 == 1;
     return axis_plane_surface(y, axis, high ? upper[axis] : lower[axis], high ? T(1) : T(-1), error);

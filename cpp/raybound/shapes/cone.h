@@ -6,14 +6,23 @@
 
 namespace raybound {
 
+// (x, y, |R| + |slope z|), which bounds (x, y, w) and what w was rounded from; and errors of vectors turned into those
+// of (x, y, w).
 template <class T>
-inline Banded<T> cone_form(const Vec3<T>& y, T radius, T slope, T error) {
+inline Vec3<T> cone_reach(const Vec3<T>& y, T radius, T slope) {
+    return {y.x, y.y, radius + abs(slope * y.z)};
+}
+template <class T>
+inline Vec3<T> cone_error(const Vec3<T>& error, T slope) {
+    return {error.x, error.y, abs(slope) * error.z};
+}
+
+template <class T>
+inline Banded<T> cone_form(const Vec3<T>& y, T radius, T slope, const Vec3<T>& error) {
     const T w = radius - slope * y.z;
-    const T reach = radius + abs(slope * y.z);  // bounds what w was rounded from
-    const T squared = y.x * y.x + y.y * y.y;
-    const T band =
-        square_band(abs(y.x) + abs(y.y), squared, error) + square_band(reach, reach * reach, abs(slope) * error);
-    return {squared - w * w, band + gamma<T>(4) * reach * reach};
+    const Vec3<T> reach = cone_reach(y, radius, slope);
+    const T squared = y.x * y.x + y.y * y.y, reach2 = reach.z * reach.z;
+    return {squared - w * w, square_band(reach, squared + reach2, cone_error(error, slope)) + gamma<T>(4) * reach2};
 }
 
 // The indefinite form Q = diag(1, 1, -1) in (x, y, w). Lagrange's identity for it:
@@ -23,16 +32,16 @@ inline Quadratic<T> cone_quadratic(const LocalRay<T>& ray, T radius, T slope) {
     const Vec3<T>&f = ray.origin, &d = ray.direction;
     const T fw = radius - slope * f.z, dw = -(slope * d.z);
     const T mx = f.x * dw - fw * d.x, my = f.y * dw - fw * d.y, mz = f.x * d.y - f.y * d.x;
-    const T reach = radius + abs(slope * f.z);
+    const Vec3<T> reach = cone_reach(f, radius, slope), way{d.x, d.y, dw};
+    const Vec3<T> f_error = cone_error(ray.origin_error, slope), d_error = cone_error(ray.direction_error, slope);
+    const T sides = mx * mx + my * my;
     Quadratic<T> q;
     q.a = d.x * d.x + d.y * d.y - dw * dw;
     q.b = f.x * d.x + f.y * d.y - fw * dw;
     q.c = cone_form(f, radius, slope, ray.origin_error);
-    q.b_band = T(2) * dot_band(abs(f.x) + abs(f.y) + reach, abs(d.x) + abs(d.y) + abs(dw), ray.origin_error,
-                               ray.direction_error);
-    const T sides = mx * mx + my * my;
-    q.discriminant =
-        discriminant_form(sides, gamma<T>(5) * sides, mz * mz, abs(mx) + abs(my) + abs(mz), T(2) * q.b_band);
+    q.b_band = T(2) * dot_band(reach, way, f_error, d_error);
+    q.discriminant = discriminant_form(sides, gamma<T>(5) * sides, mz * mz, abs(mx) + abs(my) + abs(mz),
+                                       T(2) * moment_band(reach, way, f_error, d_error));
     return q;
 }
 
@@ -60,7 +69,7 @@ inline Span<T> cone_span(const LocalRay<T>& ray, T radius, T slope) {
 }
 
 template <class T>
-inline Surface<T> cone_surface(const Vec3<T>& y, const Vec3<T>& d, int face, T radius, T slope, T error) {
+inline Surface<T> cone_surface(const Vec3<T>& y, const Vec3<T>& d, int face, T radius, T slope, const Vec3<T>& error) {
     if (face != 0) return cap_surface(y, face, radius, error);
     const T w = radius - slope * y.z, dw = -(slope * d.z);
     return {cone_form(y, radius, slope, error),

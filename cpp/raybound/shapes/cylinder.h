@@ -6,25 +6,31 @@
 
 namespace raybound {
 
+// Across the axis.
 template <class T>
-inline Banded<T> cylinder_form(const Vec3<T>& y, T radius, T error) {
+inline Vec3<T> flat(const Vec3<T>& v) {
+    return {v.x, v.y, T(0)};
+}
+
+template <class T>
+inline Banded<T> cylinder_form(const Vec3<T>& y, T radius, const Vec3<T>& error) {
     const T squared = y.x * y.x + y.y * y.y, r2 = radius * radius;
-    return {squared - r2, square_band(abs(y.x) + abs(y.y), squared + r2, error)};
+    return {squared - r2, square_band(flat(y), squared + r2, flat(error))};
 }
 
 // As for the sphere, in two dimensions: discriminant R^2 a - (f x d)_z^2.
 template <class T>
 inline Quadratic<T> cylinder_quadratic(const LocalRay<T>& ray, T radius) {
-    const Vec3<T>&f = ray.origin, &d = ray.direction;
-    const T moment = f.x * d.y - f.y * d.x;
+    const Vec3<T> f = flat(ray.origin), d = flat(ray.direction);
+    const Vec3<T> f_error = flat(ray.origin_error), d_error = flat(ray.direction_error);
+    const T moment = f.x * d.y - f.y * d.x, r2 = radius * radius;
     Quadratic<T> q;
     q.a = d.x * d.x + d.y * d.y;
     q.b = f.x * d.x + f.y * d.y;
-    q.c = cylinder_form(f, radius, ray.origin_error);
-    q.b_band = dot_band(abs(f.x) + abs(f.y), abs(d.x) + abs(d.y), ray.origin_error, ray.direction_error);
-    const T r2 = radius * radius, d_norm = abs(d.x) + abs(d.y);
-    q.discriminant = discriminant_form(r2 * q.a, r2 * square_band(d_norm, q.a, ray.direction_error), moment * moment,
-                                       abs(moment), T(2) * q.b_band);
+    q.c = cylinder_form(f, radius, f_error);
+    q.b_band = dot_band(f, d, f_error, d_error);
+    q.discriminant = discriminant_form(r2 * q.a, r2 * square_band(d, q.a, d_error), moment * moment, abs(moment),
+                                       moment_band(f, d, f_error, d_error));
     return q;
 }
 
@@ -57,12 +63,12 @@ inline Span<T> cylinder_span(const LocalRay<T>& ray, T radius) {
 }
 
 template <class T>
-inline Surface<T> cap_surface(const Vec3<T>& y, int face, T height, T error) {
+inline Surface<T> cap_surface(const Vec3<T>& y, int face, T height, const Vec3<T>& error) {
     return axis_plane_surface(y, 2, face == 2 ? height : T(0), face == 2 ? T(1) : T(-1), error);
 }
 
 template <class T>
-inline Surface<T> cylinder_surface(const Vec3<T>& y, const Vec3<T>& d, int face, T radius, T error) {
+inline Surface<T> cylinder_surface(const Vec3<T>& y, const Vec3<T>& d, int face, T radius, const Vec3<T>& error) {
     if (face != 0) return cap_surface(y, face, radius, error);
     return {cylinder_form(y, radius, error), {T(2) * y.x, T(2) * y.y, T(0)}, d.x * d.x + d.y * d.y};
 }

@@ -25,12 +25,12 @@ inline Span<T> disk_span(const LocalRay<T>& ray, T radius) {
     const Vec3<T>&f = ray.origin, &d = ray.direction;
     const T t = -(f.z / d.z);
     const T x = f.x + t * d.x, y = f.y + t * d.y;
-    return sheet_span(Banded<T>{f.z, ray.origin_error}, Banded<T>{d.z, ray.direction_error},
+    return sheet_span(Banded<T>{f.z, ray.origin_error.z}, Banded<T>{d.z, ray.direction_error.z},
                       x * x + y * y <= radius * radius);
 }
 
 template <class T>
-inline Surface<T> disk_surface(const Vec3<T>& y, T error) {
+inline Surface<T> disk_surface(const Vec3<T>& y, const Vec3<T>& error) {
     return axis_plane_surface(y, 2, T(0), T(1), error);
 }
 

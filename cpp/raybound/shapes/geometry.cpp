@@ -42,7 +42,8 @@ Frame make_frame(const Affine& unit, double top_ratio) {
     frame.linear = Mat3<float>(frame.linear_wide);
     frame.center = Vec3f(frame.center_wide);
     frame.radius = float(radius);
-    frame.norm = next_float_up(float(norm_infinity(frame.linear_wide) * (1 + 0x1p-40)));
+    for (int i = 0; i < 3; ++i)
+        frame.row_norm[i] = next_float_up(float(norm1(frame.linear_wide.row[i]) * (1 + 0x1p-40)));
     frame.slope = 1 - top_ratio;
     frame.top_radius = top_ratio * radius;
     frame.inverse_norm = norm_infinity(unit.linear) / radius * (1 + 0x1p-40);

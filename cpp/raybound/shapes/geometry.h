@@ -17,7 +17,8 @@ enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon 
 struct Frame {
     Mat3<float> linear;
     Vec3f center;
-    float radius = 1, norm = 1;  // norm: the largest row sum of |A|, rounded up
+    float radius = 1;
+    Vec3f row_norm{1, 1, 1};  // the row sums of |A|, rounded up
     Mat3<double> linear_wide;
     Vec3d center_wide;
     double slope = 0;         // of a cone

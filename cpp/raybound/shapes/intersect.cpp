@@ -37,10 +37,10 @@ W distance_anywhere(const Geometry& geometry, const Leaf& leaf, int face, const 
     const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
     const LocalPoint<W> local = to_local(frame, p);
     const W radius(frame.radius), reach = W(frame.inverse_norm) * (W(1) + gamma<W>(8));
-    const W far = norm1(local.y) + W(3) * local.error + W(4) * radius + W(frame.top_radius);
+    const W far = norm1(local.y) + norm1(local.error) + W(4) * radius + W(frame.top_radius);
     if (leaf.kind != LeafKind::cone || face != 0) return reach * far;
     const Vec3<W> apex{W(0), W(0), radius / W(frame.slope)};
-    return reach * minimum(norm1(local.y - apex) + W(3) * local.error, far);
+    return reach * minimum(norm1(local.y - apex) + norm1(local.error), far);
 }
 
 // How far a polished point can be from the surface (derivation D3). Four bands: the error of F there, that of F at the

@@ -31,14 +31,14 @@ const Vec3<T>& frame_center(const Frame& frame) {
 template <class T>
 struct LocalPoint {
     Vec3<T> y;
-    T error;
+    Vec3<T> error;
 };
 
 template <class T>
 inline LocalPoint<T> to_local(const Frame& frame, const Vec3<T>& p) {
     const Vec3<T> r = p - frame_center<T>(frame);
-    const T error = T(frame.norm) * (gamma<T>(6) * norm1(r) + gamma<T>(1) * norm1(frame_center<T>(frame)));
-    return {frame_linear<T>(frame) * r, error};
+    const T reach = gamma<T>(6) * norm1(r) + gamma<T>(1) * norm1(frame_center<T>(frame));
+    return {frame_linear<T>(frame) * r, Vec3<T>(frame.row_norm) * reach};
 }
 
 template <class T>
@@ -49,14 +49,14 @@ inline LocalRay<T> local_ray(const Frame& frame, const Ray<T>& ray) {
             d,
             {T(1) / d.x, T(1) / d.y, T(1) / d.z},
             origin.error,
-            T(frame.norm) * gamma<T>(5) * norm1(ray.direction)};
+            Vec3<T>(frame.row_norm) * (gamma<T>(5) * norm1(ray.direction))};
 }
 
 // Without a frame: a sphere's origin is moved by its centre, with one rounding of each.
 template <class T>
 inline LocalPoint<T> to_sphere(const Leaf& leaf, const Vec3<T>& p) {
     const Vec3<T> y = p - Vec3<T>(leaf.first);
-    return {y, gamma<T>(2) * (max_component(absolute(y)) + max_component(absolute(Vec3<T>(leaf.first))))};
+    return {y, (absolute(y) + absolute(Vec3<T>(leaf.first))) * gamma<T>(2)};
 }
 
 template <class T>
@@ -80,9 +80,9 @@ inline Span<T> framed_span(const Leaf& leaf, const Frame& frame, const LocalRay<
 template <class T>
 inline LocalRay<T> leaf_ray(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
     if (leaf.frame >= 0) return local_ray(geometry.frames[std::size_t(leaf.frame)], ray);
-    if (leaf.kind == LeafKind::box) return {ray.origin, ray.direction, ray.reciprocal, T(0), T(0)};
+    if (leaf.kind == LeafKind::box) return {ray.origin, ray.direction, ray.reciprocal, Vec3<T>{}, Vec3<T>{}};
     const LocalPoint<T> origin = to_sphere(leaf, ray.origin);
-    return {origin.y, ray.direction, ray.reciprocal, origin.error, T(0)};
+    return {origin.y, ray.direction, ray.reciprocal, origin.error, Vec3<T>{}};
 }
 
 template <class T>
@@ -147,7 +147,7 @@ inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int f
         const LocalPoint<T> local = to_sphere(leaf, p);
         return sphere_surface(local.y, direction, T(leaf.radius), local.error);
     }
-    return box_surface(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second), T(0));
+    return box_surface(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second), Vec3<T>{});
 }
 
 template <class T>

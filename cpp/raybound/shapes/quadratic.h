@@ -50,17 +50,25 @@ inline Roots<T> solve(const Quadratic<T>& q) {
     return roots;
 }
 
-// |f . d computed - exact| for components of f and d with the given errors and 1-norms: three products and two sums,
-// and the errors of the factors.
+// |f . d computed - exact| where the components of f and d have the given errors: three products and two sums, and the
+// errors of the factors.
 template <class T>
-inline T dot_band(T f_norm, T d_norm, T f_error, T d_error) {
-    return gamma<T>(4) * f_norm * d_norm + f_error * d_norm + d_error * f_norm + T(3) * f_error * d_error;
+inline T dot_band(const Vec3<T>& f, const Vec3<T>& d, const Vec3<T>& f_error, const Vec3<T>& d_error) {
+    const Vec3<T> f_size = absolute(f), d_size = absolute(d);
+    return gamma<T>(4) * dot(f_size, d_size) + dot(f_error, d_size) + dot(d_error, f_size + f_error);
+}
+
+// The same for any component of f x d, from norms: it is only a filter's.
+template <class T>
+inline T moment_band(const Vec3<T>& f, const Vec3<T>& d, const Vec3<T>& f_error, const Vec3<T>& d_error) {
+    const T f_norm = norm1(f), d_norm = norm1(d), f_off = norm1(f_error), d_off = norm1(d_error);
+    return gamma<T>(4) * f_norm * d_norm + f_off * d_norm + d_off * (f_norm + f_off);
 }
 
 // The same for f . f - R^2, where `squares` is f . f + R^2.
 template <class T>
-inline T square_band(T f_norm, T squares, T f_error) {
-    return gamma<T>(6) * squares + (T(2) * f_norm + T(3) * f_error) * f_error;
+inline T square_band(const Vec3<T>& f, T squares, const Vec3<T>& f_error) {
+    return gamma<T>(6) * squares + dot(absolute(f) * T(2) + f_error, f_error);
 }
 
 // The discriminant as `whole` - |moment|^2 with whole = R^2 a: bands of the moment's components (two products each,

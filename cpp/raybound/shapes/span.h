@@ -10,7 +10,7 @@ namespace raybound {
 template <class T>
 struct LocalRay {
     Vec3<T> origin, direction, reciprocal;
-    T origin_error, direction_error;
+    Vec3<T> origin_error, direction_error;
 };
 
 // The line is inside for t in [t_in, t_out] where `hit`. A crossing is `ahead` if it *certainly* lies at t > 0: one
@@ -43,9 +43,9 @@ inline Span<T> clip(const Span<T>& a, const Span<T>& b) {
 // parallel.
 template <class T>
 inline Span<T> slab_span(const LocalRay<T>& ray, int axis, T lower, T upper, int lower_face) {
-    const T f = ray.origin[axis], d = ray.direction[axis], r = ray.reciprocal[axis], band = ray.origin_error;
+    const T f = ray.origin[axis], d = ray.direction[axis], r = ray.reciprocal[axis], band = ray.origin_error[axis];
     const T below = lower - f, above = f - upper;  // > 0: outside
-    const Mask<T> parallel = (abs(d) <= ray.direction_error) | !(abs(r) < infinity<T>);
+    const Mask<T> parallel = (abs(d) <= ray.direction_error[axis]) | !(abs(r) < infinity<T>);
     const Mask<T> forward = d > T(0), within = (below <= T(0)) & (above <= T(0));
     const T at_lower = below * r, at_upper = -(above * r);
     const T entry = select(forward, below, above), exit = select(forward, above, below);

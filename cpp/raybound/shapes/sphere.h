@@ -7,9 +7,9 @@
 namespace raybound {
 
 template <class T>
-inline Banded<T> sphere_form(const Vec3<T>& y, T radius, T error) {
+inline Banded<T> sphere_form(const Vec3<T>& y, T radius, const Vec3<T>& error) {
     const T squared = dot(y, y), r2 = radius * radius;
-    return {squared - r2, square_band(norm1(y), squared + r2, error)};
+    return {squared - r2, square_band(y, squared + r2, error)};
 }
 
 // Discriminant by Lagrange's identity: (f.d)^2 - |d|^2 (|f|^2 - R^2) = R^2 |d|^2 - |f x d|^2, which keeps its digits
@@ -19,13 +19,13 @@ inline Quadratic<T> sphere_quadratic(const LocalRay<T>& ray, T radius) {
     const Vec3<T>&f = ray.origin, &d = ray.direction;
     const Vec3<T> moment = cross(f, d);
     Quadratic<T> q;
-    const T r2 = radius * radius, d_norm = norm1(d);
+    const T r2 = radius * radius;
     q.a = dot(d, d);
     q.b = dot(f, d);
     q.c = sphere_form(f, radius, ray.origin_error);
-    q.b_band = dot_band(norm1(f), d_norm, ray.origin_error, ray.direction_error);
-    q.discriminant = discriminant_form(r2 * q.a, r2 * square_band(d_norm, q.a, ray.direction_error),
-                                       dot(moment, moment), norm1(moment), T(2) * q.b_band);
+    q.b_band = dot_band(f, d, ray.origin_error, ray.direction_error);
+    q.discriminant = discriminant_form(r2 * q.a, r2 * square_band(d, q.a, ray.direction_error), dot(moment, moment),
+                                       norm1(moment), moment_band(f, d, ray.origin_error, ray.direction_error));
     return q;
 }
 
@@ -35,7 +35,7 @@ inline Span<T> sphere_span(const LocalRay<T>& ray, T radius) {
 }
 
 template <class T>
-inline Surface<T> sphere_surface(const Vec3<T>& y, const Vec3<T>& d, T radius, T error) {
+inline Surface<T> sphere_surface(const Vec3<T>& y, const Vec3<T>& d, T radius, const Vec3<T>& error) {
     return {sphere_form(y, radius, error), y * T(2), dot(d, d)};
 }
 

@@ -35,10 +35,10 @@ inline T turn(T y, T x) {
 
 // The plane where coordinate `axis` is `level`; `sign` +1 if the solid lies below.
 template <class T>
-inline Surface<T> axis_plane_surface(const Vec3<T>& y, int axis, T level, T sign, T error) {
+inline Surface<T> axis_plane_surface(const Vec3<T>& y, int axis, T level, T sign, const Vec3<T>& error) {
     Vec3<T> gradient;
     gradient[axis] = sign;
-    return {{sign * (y[axis] - level), error + gamma<T>(1) * abs(y[axis] - level)}, gradient, T(0)};
+    return {{sign * (y[axis] - level), error[axis] + gamma<T>(1) * abs(y[axis] - level)}, gradient, T(0)};
 }
 
 // The square around a disk, from 0 to 1; the centre of a disk without extent is its middle.
