@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-
-import raybound as rb
 from tests.support.support_csg import expression, is_thick
 from tests.support.support_hits import UNIT
 from tests.support.support_oracle import build
 from tests.support.support_shapes import EXTREMES, KINDS, SOLID_KINDS, aimed_rays, f32, make
+
+import raybound as rb
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *EXTREMES])

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-import raybound as rb
 from tests.support.support_hits import UNIT, Tally, check_hit
 from tests.support.support_oracle import build, first_hit
+
+import raybound as rb
 
 CASES = json.loads((Path(__file__).parent.parent / "corpus" / "shapes.json").read_text())
 FIELDS = ("t", "t_error", "point", "point_error", "normal", "uv", "next_origin")

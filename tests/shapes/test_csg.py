@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-
-import raybound as rb
 from tests.support.support_csg import expression, is_thick
 from tests.support.support_hits import Tally, explained
 from tests.support.support_oracle import Found, build, exact, first_change, is_member
 from tests.support.support_shapes import aimed_rays, f32, unit
 from tests.support.support_spawn import spawn
+
+import raybound as rb
 
 
 def close(found: Found | None, hit: np.void) -> bool:

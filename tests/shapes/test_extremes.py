@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-
-import raybound as rb
 from tests.support.support_shapes import EXTREMES, KINDS, Rng, aimed_rays, f32, unit
 from tests.support.support_spawn import shape_or_none, wild_shape
+
+import raybound as rb
 
 FIELDS = ("t", "t_error", "point", "point_error", "normal", "uv", "next_origin")
 LARGEST = 3.4e38

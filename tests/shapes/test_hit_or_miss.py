@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-
-import raybound as rb
 from tests.support.support_oracle import build, first_change
 from tests.support.support_shapes import SOLID_KINDS, Rng, f32, make, unit
+
+import raybound as rb
 
 
 def depth_of(shape: rb.Shape, points: np.ndarray, margin: float) -> np.ndarray:

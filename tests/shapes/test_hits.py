@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-
-import raybound as rb
 from tests.support.support_hits import UNIT, Tally, check_rays
 from tests.support.support_shapes import EXTREMES, KINDS, aimed_rays, make
+
+import raybound as rb
 
 POPULATIONS = [12, pytest.param(1200, marks=pytest.mark.soak)]
 BAD = ("wrong", "t outside its error", "no surface in the box", "point beside its face", "normal")

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.support.support_shapes import f32
 
 import raybound as rb
-from tests.support.support_shapes import f32
 
 FIELDS = ("t", "t_error", "point", "point_error", "normal", "uv", "next_origin")
 
@@ -119,7 +119,7 @@ def test_rays_at_a_rim() -> None:
     cylinder = rb.Cylinder((0, 0, 0), (0, 0, 1), radius=1)
     turn = np.linspace(0, 2 * np.pi, 2000)
     rim = np.stack([np.cos(turn), np.sin(turn), np.ones_like(turn)], axis=1) * [1 - 1e-6, 1 - 1e-6, 1]
-    origins = f32(rim + [0.5, 0.25, 3])
+    origins = f32(rim + np.array([0.5, 0.25, 3]))
     answers = rb.intersect(cylinder, origins, f32(rim) - origins)
     assert answers["hit"].all()
     assert np.abs(answers["point"] - rim).max() < 1e-4

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-
-import raybound as rb
 from tests.support.support_hits import explained
 from tests.support.support_oracle import build, first_change
 from tests.support.support_shapes import EXTREMES, KINDS, SOLID_KINDS, aimed_rays, f32, make, unit
 from tests.support.support_spawn import as_ulps, hemisphere, shape_or_none, spawn, wild_shape
+
+import raybound as rb
 
 # Shapes of each kind; 40 rays at each, 25 spawned from each hit: 1.2e6 and 1e7 candidates.
 POPULATIONS = [1200, pytest.param(10000, marks=pytest.mark.soak)]

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.support.support_shapes import KINDS, aimed_rays, make, unit
 
 import raybound as rb
-from tests.support.support_shapes import KINDS, aimed_rays, make, unit
 
 
 def uv_at(shape: rb.Shape, origin: tuple[float, ...], direction: tuple[float, ...]) -> list[float]:

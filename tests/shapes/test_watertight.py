@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.support.support_shapes import Rng, f32, unit
 
 import raybound as rb
-from tests.support.support_shapes import Rng, f32, unit
 
 FAR = (148376.0, 1234.0, -223423.0)
 

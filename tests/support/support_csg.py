@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 
 import raybound as rb
@@ -34,10 +36,8 @@ def expression(rng: Rng, depth: int, *, grid: bool) -> rb.Shape:
     parts = [expression(rng, depth - 1, grid=grid) for _ in range(rng.integers(2, 4))]
     shape: rb.Shape = rb.Union(*parts)
     if rng.random() < 0.45:
-        try:
+        with contextlib.suppress(ValueError):  # disjoint
             shape = rb.Intersection(*parts)
-        except ValueError:
-            pass  # disjoint
     if rng.random() < 0.3:
         shape = shape.transformed(rb.Transform.rotate(rng.uniform(0, 360), unit(rng)))
     return shape

@@ -9,6 +9,7 @@ is the same for primitives and for CSG, and has nothing in common with the kerne
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -90,7 +91,7 @@ def disk_forms(s: Any, p: Any, d: Any) -> list[Form]:
 
 def newell(vertices: Any) -> list[Any]:
     first = vertices[0]
-    parts = [cross(minus(a, first), minus(b, first)) for a, b in zip(vertices[1:], vertices[2:])]
+    parts = [cross(minus(a, first), minus(b, first)) for a, b in itertools.pairwise(vertices[1:])]
     return [sum((part[i] for part in parts[1:]), parts[0][i]) for i in range(3)]
 
 
