@@ -52,7 +52,7 @@ $(VENV)/stamp-tools: pyproject.toml
 
 $(VENV)/stamp-build: $(VENV)/stamp-tools $(CPP_STAMPS)
 	@echo "building raybound"
-	@$(PIP) install --quiet --no-build-isolation --no-deps --editable .
+	@$(PIP) install --quiet --no-build-isolation --no-deps --config-settings=cmake.define.RAYBOUND_WERROR=ON --editable .
 	@touch $@
 
 $(VENV)/stamp-%: $(VENV)/stamp-tools
@@ -84,7 +84,7 @@ notebooks: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the notebooks
 	$(PY) -m pytest --nbmake --nbmake-timeout=600 notebooks $(ARGS)
 
 soak: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the long searches for failures
-	$(PY) -m pytest -m soak $(PYTEST_ARGS)
+	$(PY) -m pytest -m soak -o timeout=3000 $(PYTEST_ARGS)
 
 bench: $(VENV)/stamp-build $(VENV)/stamp-plot ## Measure speed, with a table
 	$(PY) -m raybound bench base $(ARGS)

@@ -125,7 +125,7 @@ class Object(Handle):
 
     @property
     def bounds(self) -> DoubleArray:
-        """A box that surely contains the object: (2, 3) float64, scene units."""
+        """The box around the object: (2, 3) float64, scene units, to within double rounding."""
         with self._scene._lock:
             self._record()
             return self._scene._document.object_bounds(self._id)

@@ -187,7 +187,7 @@ class Scene:
 
     @property
     def bounds(self) -> DoubleArray:
-        """A box that surely contains all objects: (2, 3) float64, scene units. ValueError if there are none."""
+        """The box around all objects: (2, 3) float64, scene units. ValueError if there are none."""
         with self._lock:
             bounds = self._document.bounds()
         if bounds is None:

@@ -20,7 +20,7 @@ class Shape(Value):
 
     @property
     def bounds(self) -> DoubleArray:
-        """A box that surely contains the shape: (2, 3) float64, lower and upper corner, in scene units."""
+        """The box around the shape: (2, 3) float64, lower and upper corner, scene units, to within double rounding."""
         return self._native.bounds()
 
     def transformed(self, t: Transform) -> Transformed:

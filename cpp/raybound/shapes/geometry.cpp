@@ -99,7 +99,7 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
     if (determinant(placement.linear) < 0) plane.orientation = -plane.orientation;  // a mirror keeps outside outside
     if (!is_finite(Vec3d(plane.slope_i, plane.slope_j, 0)) || !is_finite(plane.u_axis) || !is_finite(plane.v_axis))
         throw std::invalid_argument(
-            "Polygon: the transform must keep the vertices apart, they collapse when rounded to float32");
+            "Polygon: the transform must keep the vertices apart, they collapse in double");
     plane.first_vertex = std::uint32_t(geometry.vertices.size());
     plane.vertex_count = std::uint32_t(placed.size());
     // The plane passes through the first vertex; the user may have rounded the others off it.
