@@ -11,8 +11,8 @@
 
 namespace raybound {
 
-// Mask: the truth value of comparisons. Wide: the type in which cancellation-critical values are evaluated again when
-// `T` cannot tell their sign (double for float; double has nothing wider and keeps to its own bands).
+// Mask: the truth value of comparisons. Wide: the type that decides whether and where rays cross surfaces (double for
+// float; double decides for itself), while T filters before it and computes the light (cpp/derivations.md, D0).
 template <class T>
 struct NumberTraits;
 
@@ -77,5 +77,7 @@ concept Number = requires(T a, Mask<T> m) {
     { sqrt(a) } -> std::convertible_to<T>;
     { select(m, a, a) } -> std::convertible_to<T>;
 };
+
+static_assert(Number<float> && Number<double>);
 
 }  // namespace raybound

@@ -67,8 +67,7 @@ float frame_surface_error(const Frame& frame, const Affine& unit) {
 }
 
 PolygonPlane make_plane(const std::vector<Vec3d>& v) {
-    Vec3d normal;
-    for (std::size_t i = 0; i < v.size(); ++i) normal = normal + cross(v[i] - v[0], v[(i + 1) % v.size()] - v[0]);
+    const Vec3d normal = newell_normal(v);
     const Vec3d a = absolute(normal);
     PolygonPlane plane;
     plane.axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
@@ -98,8 +97,7 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
     PolygonPlane plane = make_plane(placed);
     if (determinant(placement.linear) < 0) plane.orientation = -plane.orientation;  // a mirror keeps outside outside
     if (!is_finite(Vec3d(plane.slope_i, plane.slope_j, 0)) || !is_finite(plane.u_axis) || !is_finite(plane.v_axis))
-        throw std::invalid_argument(
-            "Polygon: the transform must keep the vertices apart, they collapse in double");
+        throw std::invalid_argument("Polygon: the transform must keep the vertices apart, they collapse in double");
     plane.first_vertex = std::uint32_t(geometry.vertices.size());
     plane.vertex_count = std::uint32_t(placed.size());
     // The plane passes through the first vertex; the user may have rounded the others off it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "raybound/shapes/disk.h"
 
@@ -17,6 +18,17 @@ struct PolygonPlane {
     Vec3f u_axis, v_axis;  // (u,v) = offset + axis . (p - v)
     float u_offset = 0, v_offset = 0;
 };
+
+// The normal of a closed polygon, twice its area long, on the side that sees the vertices counter-clockwise (Newell's
+// sums, in double).
+template <class T>
+inline Vec3d newell_normal(const std::vector<Vec3<T>>& vertices) {
+    const Vec3d first(vertices[0]);
+    Vec3d sum;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        sum = sum + cross(Vec3d(vertices[i]) - first, Vec3d(vertices[(i + 1) % vertices.size()]) - first);
+    return sum;
+}
 
 template <class T>
 inline Banded<T> plane_form(const PolygonPlane& plane, const Vec3<T>& v, const Vec3<T>& p) {

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "raybound/shapes/polygon.h"
+
 namespace raybound {
 
 namespace {
@@ -19,15 +21,6 @@ void require_size(const char* object, const char* argument, float value) {
 void require_apart(const char* object, const char* what, const Vec3f& a, const Vec3f& b) {
     if (length(Vec3d(b) - Vec3d(a)) < double(least_size))
         refuse(std::string(object) + ": " + what + " must differ, got " + format(a) + " twice");
-}
-
-// The normal of a closed polygon, twice its area long (Newell's sums, in double).
-Vec3d newell_normal(const std::vector<Vec3f>& vertices) {
-    Vec3d sum;
-    const Vec3d origin(vertices[0]);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        sum = sum + cross(Vec3d(vertices[i]) - origin, Vec3d(vertices[(i + 1) % vertices.size()]) - origin);
-    return sum;
 }
 
 double extent_of(const std::vector<Vec3f>& vertices) {
