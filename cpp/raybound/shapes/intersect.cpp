@@ -36,7 +36,7 @@ W distance_anywhere(const Geometry& geometry, const Leaf& leaf, int face, const 
     if (leaf.frame < 0) return norm1(p - Vec3<W>(leaf.first)) + W(leaf.radius);
     const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
     const LocalPoint<W> local = to_local(frame, p);
-    const W radius(frame.radius), reach = W(frame.inverse_norm) * (W(1) + gamma<W>(8));
+    const W radius(frame.radius), reach = W(2) * W(frame.inverse_norm);  // the norm is of components: sqrt(3) at most
     const W far = norm1(local.y) + norm1(local.error) + W(4) * radius + W(frame.top_radius);
     if (leaf.kind != LeafKind::cone || face != 0) return reach * far;
     const Vec3<W> apex{W(0), W(0), radius / W(frame.slope)};
