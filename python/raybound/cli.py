@@ -32,7 +32,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="{render,demo,bench}")
     _add_render(commands.add_parser("render", help="render a scene to an image file"))
     demo = commands.add_parser("demo", help="render the museum walk-through and more to a folder")
-    demo.add_argument("--frames", type=int, default=12, help="frames of the walk-through (default 12)")
+    demo.add_argument("--frames", type=int, default=60, help="frames of the walk-through (default 60)")
     demo.add_argument("--width", type=int, default=600, help="of the walk-through's frames, pixels (default 600)")
     demo.add_argument("--height", type=int, default=450, help="of the walk-through's frames, pixels (default 450)")
     demo.add_argument("--out", default="out", help="folder for pictures and statistics (default ./out)")
