@@ -19,7 +19,7 @@ def test_ctrl_c_stops_a_frame_and_its_threads_promptly() -> None:
     scene = small_scene()
     camera = scene.camera.replace(width=3200, height=2400) if scene.camera else None
     renderer = rb.Renderer(scene, threads=1)
-    begun, sent, fractions = threading.Event(), [0.0], [0.0]
+    begun, sent, fractions = threading.Event(), [0], [0.0]
 
     def watch(fraction: float) -> None:
         fractions.append(fraction)
@@ -28,20 +28,19 @@ def test_ctrl_c_stops_a_frame_and_its_threads_promptly() -> None:
     def interrupt() -> None:
         assert begun.wait(30)
         time.sleep(0.05)
-        sent[0] = time.process_time()
+        sent[0] = len(fractions)
         os.kill(os.getpid(), signal.SIGINT)
 
     thread = threading.Thread(target=interrupt)
     thread.start()
     with pytest.raises(KeyboardInterrupt):
         renderer.render(camera, progress=watch)
-    delay = time.process_time() - sent[0]
     thread.join()
-    assert delay < 0.2  # of this process's time, as the machine may be loaded; the whole frame takes far longer
+    assert len(fractions) - sent[0] <= 2  # one look may be under way at the signal, the next one raises
     assert fractions[-1] < 0.5
     partial = renderer.partial_frame
     assert partial is not None
-    assert 0 < np.isinf(partial.error_bound).mean() < 1
+    assert 0.5 < np.isinf(partial.error_bound).mean() < 1  # its threads stopped too, long before the end
     assert renderer.render().error_bound.max() == 0
 
 

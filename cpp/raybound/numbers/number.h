@@ -36,7 +36,6 @@ template <class T>
 using Wide = typename NumberTraits<T>::Wide;
 
 inline bool none(bool mask) { return !mask; }
-inline bool any(bool mask) { return mask; }
 
 template <std::floating_point T>
 inline T select(bool mask, T yes, T no) {

@@ -35,8 +35,8 @@ inline T root_error(T residual, T slope, T curvature) {
     return select(residual > T(0), bound, T(0));
 }
 
-// The same for a crossing found by the kernel: the residual is F where the crossing is, its band, the rounding of that
-// point, and what the leaf's own surface may be off.
+// The same for a crossing found by the kernel: the residual is F where the crossing is, its band, and the rounding of
+// that point. (How far the leaf is off the user's surface, surface_error, is not in it: surface_point adds that.)
 template <class T>
 inline T boundary_error(const Geometry& geometry, const Leaf& leaf, int face, T t, const Ray<T>& ray) {
     if (!(abs(t) < infinity<T>)) return T(0);

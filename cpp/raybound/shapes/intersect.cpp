@@ -1,7 +1,5 @@
 #include "raybound/shapes/intersect.h"
 
-#include <algorithm>
-
 #include "raybound/shapes/csg.h"
 
 namespace raybound {
