@@ -32,7 +32,7 @@ std::vector<Record> blank_records(std::size_t count) {
 void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const Ray<float>& ray,
                  float scale) {
     constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
-    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, widen(ray));
+    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, widen(ray), true);
     record.hit = true;
     record.t = minimum(at.t / scale, most);
     record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
@@ -56,7 +56,7 @@ Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& n, Offsets offsets) {
 template <class T>
 void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray,
                  T scale, Offsets offsets) {
-    const SurfacePoint<T> at = surface_point<T>(geometry, crossing, widen(ray));
+    const SurfacePoint<T> at = surface_point<T>(geometry, crossing, widen(ray), true);
     record.hit = true;
     record.t = double(at.t) / double(scale);
     record.t_error = next_float_up(double(at.t_error) / double(scale));
@@ -105,7 +105,7 @@ std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f>
     std::vector<std::uint8_t> blocked(origins.size());
     answer_all(origins.size(), watch, [&](std::size_t i) {
         if (origins[i] == targets[i]) return;
-        blocked[i] = is_blocked(scene, make_segment(origins[i], targets[i]), nullptr);
+        blocked[i] = is_blocked(scene, make_segment(origins[i], targets[i]), {}, nullptr);
     });
     return blocked;
 }
@@ -122,7 +122,7 @@ std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const 
         records[i].face_id = -1;
         T scale, entry;
         const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale, i);
-        if (!crosses(primitive.bounds, ray, infinity<T>, &entry)) return;
+        if (!crosses(primitive.bounds, SlabRay<T>(ray), infinity<T>, &entry)) return;
         const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, WideRay<T>(ray));
         if (crossing.hit && T(crossing.t) < infinity<T>)
             fill_record(records[i], geometry, crossing, ray, scale, offsets);

@@ -45,12 +45,38 @@ inline Box round_outward(const Boxd& box) {
 }
 
 // How much a slab's exit is pushed out: entry and exit each carry three roundings (difference, reciprocal, product),
-// so 2 gamma_3 on one side covers both. Exit times 1 + 2 gamma_3 is conservative also with its own two roundings.
+// so 2 gamma_3 on one side covers both. Exit times 1 + 2 gamma_3 is conservative also with its own two roundings. A
+// direction that is itself rounded (in the coordinates of a mesh) adds one: gamma_5.
 template <class T>
 inline constexpr T slab_widening = T(1) + 2 * gamma<T>(4);
+template <class T>
+inline constexpr T rounded_slab_widening = T(1) + 2 * gamma<T>(6);
 
-// Where the ray is inside a box, for one box (V = T) or four at once. A zero direction component on a slab's plane
-// gives 0 * infinity = NaN, which `maximum` and `minimum` ignore: a box that is touched is never rejected.
+// A ray as slabs see it. The origin that entries are measured from and the one of exits differ where the origin is
+// only known within an error: every box is then as good as larger by that error.
+template <class T>
+struct SlabRay {
+    Vec3<T> near_origin, far_origin, reciprocal;
+    T widening;
+    int near_side[3];  // 0 where the ray enters slabs by their lower planes, 1 by their upper
+
+    SlabRay(const Vec3<T>& origin, const Vec3<T>& origin_error, const Vec3<T>& direction, T widening_)
+        : near_origin(origin), far_origin(origin), widening(widening_) {
+        for (int axis = 0; axis < 3; ++axis) {
+            reciprocal[axis] = T(1) / direction[axis];  // infinite where the direction is 0
+            near_side[axis] = reciprocal[axis] < T(0);
+            if (!(origin_error[axis] > T(0))) continue;
+            const T below = next_float_down(origin[axis] - origin_error[axis]);
+            const T above = next_float_up(origin[axis] + origin_error[axis]);
+            near_origin[axis] = near_side[axis] ? below : above;
+            far_origin[axis] = near_side[axis] ? above : below;
+        }
+    }
+    explicit SlabRay(const Ray<T>& ray) : SlabRay(ray.origin, {}, ray.direction, slab_widening<T>) {}
+};
+
+// Where a ray is inside a box, for one box (V = T) or eight at once (V a pack). A zero direction component on a slab's
+// plane gives 0 * infinity = NaN, which `maximum` and `minimum` ignore: a box that is touched is never rejected.
 //
 // The interval is monotone, since every rounding is: computed numbers too enter a box no earlier than a box around it.
 template <class V>
@@ -58,24 +84,23 @@ struct BoxInterval {
     V near, far;
 };
 
-template <class V, class T>
-inline BoxInterval<V> slab_interval(const V (&lower)[3], const V (&upper)[3], const Ray<T>& ray, T t_min, T t_max) {
-    V near = V{} + t_min, far = V{} + t_max;
+// plane(side, axis): the lower (0) or upper (1) planes.
+template <class V, class T, class Planes>
+inline BoxInterval<V> slab_interval(const SlabRay<T>& ray, T t_max, const Planes& plane) {
+    V near(T(0)), far(infinity<T>);
     for (int axis = 0; axis < 3; ++axis) {
-        const T r = ray.reciprocal[axis];
-        const V first = r < 0 ? upper[axis] : lower[axis], last = r < 0 ? lower[axis] : upper[axis];
-        near = maximum(near, (first - ray.origin[axis]) * r);
-        far = minimum(far, (last - ray.origin[axis]) * r * slab_widening<T>);
+        const V r(ray.reciprocal[axis]);
+        near = maximum(near, (plane(ray.near_side[axis], axis) - V(ray.near_origin[axis])) * r);
+        far = minimum(far, (plane(1 - ray.near_side[axis], axis) - V(ray.far_origin[axis])) * r);
     }
-    return {near, far};
+    return {near, minimum(V(t_max), far * V(ray.widening))};
 }
 
 // Does the ray cross the box within [0, t_max]? `entry` tells where, at the earliest.
 template <class T>
-inline Mask<T> crosses(const Box& box, const Ray<T>& ray, T t_max, T* entry) {
-    const T lower[3] = {T(box.lower.x), T(box.lower.y), T(box.lower.z)};
-    const T upper[3] = {T(box.upper.x), T(box.upper.y), T(box.upper.z)};
-    const BoxInterval<T> inside = slab_interval(lower, upper, ray, T(0), t_max);
+inline bool crosses(const Box& box, const SlabRay<T>& ray, T t_max, T* entry) {
+    const auto plane = [&box](int side, int axis) { return T(side ? box.upper[axis] : box.lower[axis]); };
+    const BoxInterval<T> inside = slab_interval<T>(ray, t_max, plane);
     *entry = inside.near;
     return inside.near <= inside.far;
 }

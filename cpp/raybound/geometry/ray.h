@@ -10,7 +10,6 @@ namespace raybound {
 template <class T>
 struct Ray {
     Vec3<T> origin, direction;
-    Vec3<T> reciprocal;  // 1/d, infinite where d is 0: for slabs
     T t_max = infinity<T>;
     Vec3<T> target{};
     bool has_target = false;
@@ -31,7 +30,6 @@ inline Ray<T> make_ray(const Vec3<T>& origin, const Vec3<T>& direction) {
     Ray<T> ray;
     ray.origin = origin;
     ray.direction = {flush_component(direction.x), flush_component(direction.y), flush_component(direction.z)};
-    ray.reciprocal = {T(1) / ray.direction.x, T(1) / ray.direction.y, T(1) / ray.direction.z};
     return ray;
 }
 

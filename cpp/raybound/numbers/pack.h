@@ -1,34 +1,125 @@
-// Four numbers side by side: the compiler's vector types, for slab tests. Lane by lane the same bits as scalars.
+// Eight numbers side by side: the compiler's vector types as a number type for kernels. Lane by lane the same bits as
+// the scalar type, on every instruction level.
 #pragma once
 
-#include "raybound/numbers/number.h"
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+#include "raybound/numbers/float_bits.h"
 
 namespace raybound {
 
+inline constexpr int pack_width = 8;
+
 template <class T>
-struct PackOf;
-template <>
-struct PackOf<float> {
-    typedef float type __attribute__((vector_size(16)));
-};
-template <>
-struct PackOf<double> {
-    typedef double type __attribute__((vector_size(32)));
+struct PackStorage {
+    typedef T type __attribute__((vector_size(sizeof(T) * pack_width)));
 };
 
 template <class T>
-using Pack4 = typename PackOf<T>::type;
+using PackVector = typename PackStorage<T>::type;
 
-template <class V>
-concept Pack = std::is_same_v<V, Pack4<float>> || std::is_same_v<V, Pack4<double>>;
+// What a comparison of packs gives: all bits of a lane, or none.
+template <class T>
+struct PackMask {
+    using Integer = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    PackVector<Integer> lanes;
 
-template <Pack V>
-inline V minimum(V a, V b) {
-    return b < a ? b : a;
+    PackMask operator&(const PackMask& o) const { return {lanes & o.lanes}; }
+    PackMask operator|(const PackMask& o) const { return {lanes | o.lanes}; }
+    PackMask operator!() const { return {~lanes}; }
+};
+
+// One bit for each lane, the first lane's lowest.
+template <class T>
+inline std::uint32_t bits(const PackMask<T>& mask) {
+#ifdef __AVX__  // one instruction there; it takes the sign bits, which are the lanes' own
+    if constexpr (sizeof(T) == 4) return std::uint32_t(_mm256_movemask_ps(std::bit_cast<__m256>(mask.lanes)));
+#endif
+    typedef std::int8_t Bytes __attribute__((vector_size(pack_width)));
+    const auto bytes = std::bit_cast<std::uint64_t>(__builtin_convertvector(mask.lanes, Bytes));
+    return std::uint32_t(((bytes & 0x8040201008040201u) * 0x0101010101010101u) >> 56);
 }
-template <Pack V>
-inline V maximum(V a, V b) {
-    return b > a ? b : a;
+
+template <class T>
+inline bool none(const PackMask<T>& mask) {
+    return bits(mask) == 0;
+}
+
+template <class T>
+struct alignas(sizeof(T) * pack_width) Pack {
+    PackVector<T> v;
+
+    Pack() : v{} {}
+    Pack(PackVector<T> lanes) : v(lanes) {}
+    explicit Pack(T x) : v(x - PackVector<T>{}) {}  // x - 0, not x + 0: keeps -0
+    template <class S>
+    static Pack load(const S* p) {
+        typedef S Unaligned __attribute__((vector_size(sizeof(S) * pack_width), aligned(alignof(S)), may_alias));
+        return {__builtin_convertvector(*reinterpret_cast<const Unaligned*>(p), PackVector<T>)};
+    }
+    T operator[](int lane) const { return v[lane]; }
+
+    friend Pack operator+(const Pack& a, const Pack& b) { return {a.v + b.v}; }
+    friend Pack operator-(const Pack& a, const Pack& b) { return {a.v - b.v}; }
+    friend Pack operator*(const Pack& a, const Pack& b) { return {a.v * b.v}; }
+    friend Pack operator/(const Pack& a, const Pack& b) { return {a.v / b.v}; }
+    friend Pack operator-(const Pack& a) { return {-a.v}; }
+    friend PackMask<T> operator<(const Pack& a, const Pack& b) { return {a.v < b.v}; }
+    friend PackMask<T> operator<=(const Pack& a, const Pack& b) { return {a.v <= b.v}; }
+    friend PackMask<T> operator>(const Pack& a, const Pack& b) { return {a.v > b.v}; }
+    friend PackMask<T> operator>=(const Pack& a, const Pack& b) { return {a.v >= b.v}; }
+};
+
+template <class T>
+struct NumberTraits<Pack<T>> {
+    using Mask = PackMask<T>;
+    using Wide = Pack<typename NumberTraits<T>::Wide>;
+    static constexpr T unit_roundoff = NumberTraits<T>::unit_roundoff;
+};
+
+template <class T>
+struct ScalarOf {
+    using type = T;
+};
+template <class T>
+struct ScalarOf<Pack<T>> {
+    using type = T;
+};
+template <class T>
+using Scalar = typename ScalarOf<T>::type;
+
+template <class T>
+    requires(!std::is_same_v<Scalar<T>, T>)
+inline T gamma(int n) {
+    return T(gamma<Scalar<T>>(n));
+}
+
+template <class T>
+inline Pack<T> minimum(const Pack<T>& a, const Pack<T>& b) {
+    return {b.v < a.v ? b.v : a.v};
+}
+template <class T>
+inline Pack<T> maximum(const Pack<T>& a, const Pack<T>& b) {
+    return {b.v > a.v ? b.v : a.v};
+}
+template <class T>
+inline Pack<T> select(const PackMask<T>& mask, const Pack<T>& yes, const Pack<T>& no) {
+    return {mask.lanes ? yes.v : no.v};
+}
+template <class T>
+inline Pack<T> abs(const Pack<T>& a) {
+    using Integer = typename PackMask<T>::Integer;
+    constexpr Integer sign_off = std::numeric_limits<Integer>::max();
+    return {std::bit_cast<PackVector<T>>(std::bit_cast<PackVector<Integer>>(a.v) & sign_off)};
+}
+template <class T>
+inline Pack<T> square(const Pack<T>& a) {
+    return a * a;
 }
 
 }  // namespace raybound

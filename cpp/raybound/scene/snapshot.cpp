@@ -3,13 +3,11 @@
 namespace raybound {
 
 Snapshot::Snapshot(SceneContent content, std::int64_t revision) : content_(std::move(content)), revision_(revision) {
-    std::vector<Box> boxes;
     for (std::size_t i = 0; i < content_.objects.size(); ++i) {
         const ObjectRecord& object = content_.objects[i];
         add_primitive(geometry_, std::uint32_t(i), *object.shape, object.transform);
-        boxes.push_back(geometry_.primitives.back().bounds);
     }
-    bvh_ = Bvh(boxes);
+    accelerator_ = Accelerator(geometry_);
 }
 
 }  // namespace raybound

@@ -8,7 +8,7 @@ namespace {
 
 template <class W>
 Crossing<W> cross_leaf(const Geometry& geometry, std::uint32_t index, const Ray<W>& ray) {
-    const Span<W> span = leaf_span(geometry, geometry.leaves[index], ray);
+    const Span<W> span = leaf_span_ahead(geometry, geometry.leaves[index], ray);
     const W t = select(span.in_ahead, span.t_in, span.t_out);
     const int face = select(span.in_ahead, span.face_in, span.face_out);
     return {t, index, face, 0, Mask<W>(span.hit & (span.in_ahead | span.out_ahead))};
@@ -49,7 +49,7 @@ W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const V
                    const Vec3<W>& normal) {
     const W squared = dot(surface.gradient, surface.gradient);
     const W residual = abs(surface.form.value) + W(4) * surface.form.band;
-    const W bend = abs(leaf_surface(geometry, leaf, face, p, normal).curvature);
+    const W bend = abs(leaf_curvature(geometry, leaf, face, p, normal));
     if (residual * bend <= W(0x1p-11) * squared) return residual / sqrt(squared) * (W(1) + W(0x1p-10));
     return distance_anywhere(geometry, leaf, face, p);
 }
@@ -94,18 +94,19 @@ T round_up(Wide<T> x) {
 }  // namespace
 
 template <class T>
-Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray) {
+Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
+                                 bool filtered) {
     if (primitive.is_csg) return cross_csg(geometry, primitive.root, ray.wide);
     if constexpr (!std::is_same_v<T, Wide<T>>)
-        if (none(may_cross(geometry, geometry.leaves[primitive.root], ray.narrow)))
+        if (!filtered && none(may_cross(geometry, geometry.leaves[primitive.root], ray.narrow)))
             return {infinity<Wide<T>>, 0, 0, 0, false};
     return cross_leaf(geometry, primitive.root, ray.wide);
 }
 
 template <class T>
-Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray) {
+Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, bool filtered) {
     using W = Wide<T>;
-    const Crossing<W> crossing = first_crossing(geometry, primitive, ray);
+    const Crossing<W> crossing = first_crossing(geometry, primitive, ray, filtered);
     if (none(crossing.hit) || !ray.wide.has_target) return crossing.hit;
     const W end = ray.wide.t_max * (W(1) - gamma<W>(8));
     if (!(crossing.t < end)) return Mask<T>(false);
@@ -114,20 +115,32 @@ Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideR
 }
 
 template <class T>
-SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray) {
+T crossing_error(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray, T t,
+                 const Polished<Wide<T>>& polished, const Vec3<Wide<T>>& normal) {
     using W = Wide<T>;
     const Leaf& leaf = geometry.leaves[crossing.leaf];
-    const auto [exact, surface] =
+    const Surface<W>& surface = polished.surface;
+    const W off_surface =
+        root_error(W(leaf.surface_error), dot(normal, ray.direction), surface.curvature / length(surface.gradient));
+    return round_up<T>(abs(W(t) - crossing.t) + off_surface +
+                       boundary_error(geometry, leaf, crossing.face, crossing.t, ray));
+}
+
+template <class T>
+SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
+                              bool with_t_error) {
+    using W = Wide<T>;
+    const Leaf& leaf = geometry.leaves[crossing.leaf];
+    const Polished<W> polished =
         polish(geometry, leaf, crossing.face, ray.origin + ray.direction * crossing.t, ray.direction);
-    const Vec3<W> normal = unit_normal(geometry, leaf, surface, ray.direction);
-    const W distance = surface_distance(geometry, leaf, crossing.face, exact, surface, normal) + W(leaf.surface_error);
+    const Vec3<W>& exact = polished.point;
+    const Vec3<W> normal = unit_normal(geometry, leaf, polished.surface, ray.direction);
+    const W distance =
+        surface_distance(geometry, leaf, crossing.face, exact, polished.surface, normal) + W(leaf.surface_error);
 
     SurfacePoint<T> hit;
     hit.t = T(crossing.t);
-    const W off_surface =
-        root_error(W(leaf.surface_error), dot(normal, ray.direction), surface.curvature / length(surface.gradient));
-    hit.t_error = round_up<T>(abs(W(hit.t) - crossing.t) + off_surface +
-                              boundary_error(geometry, leaf, crossing.face, crossing.t, ray));
+    hit.t_error = with_t_error ? crossing_error(geometry, crossing, ray, hit.t, polished, normal) : T(0);
     hit.point = Vec3<T>(exact);
     const Vec3<W> rounding = absolute(Vec3<W>(hit.point) - exact);
     for (int i = 0; i < 3; ++i) hit.point_error[i] = round_up<T>(distance * abs(normal[i]) + rounding[i]);
@@ -137,12 +150,18 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
     return hit;
 }
 
+bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
+    if (primitive.is_csg) return false;
+    const LeafKind kind = geometry.leaves[primitive.root].kind;
+    return outward || kind == LeafKind::disk || kind == LeafKind::polygon;
+}
+
 // The number types that rays are traced with today. (float filters and shades, double decides.)
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&);
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&);
-template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
-template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&, bool);
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&, bool);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, bool);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, bool);
+template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, bool);
+template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, bool);
 
 }  // namespace raybound

@@ -27,12 +27,14 @@ struct Crossing {
     Mask<T> hit;
 };
 
+// `filtered`: the filter in T has been asked already.
 template <class T>
-Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray);
+Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
+                                 bool filtered = false);
 
 // Does the primitive block the ray, certainly after its origin and certainly before its target, if it has one?
 template <class T>
-Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray);
+Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, bool filtered = false);
 
 // A hit with its error bounds. `entering`: the ray comes from outside, against the outward normal (asked in the wide
 // type: at a silhouette the rounded normal may say otherwise). The box point +- point_error holds a point of the
@@ -45,7 +47,12 @@ struct SurfacePoint {
     bool entering;
 };
 
+// Rendering needs no t_error: it is 0 unless asked for.
 template <class T>
-SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray);
+SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
+                              bool with_t_error);
+
+// Once a ray has left a convex leaf outward (or a sheet on either side), it cannot meet it again.
+bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward);
 
 }  // namespace raybound

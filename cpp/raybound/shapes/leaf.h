@@ -45,18 +45,14 @@ template <class T>
 inline LocalRay<T> local_ray(const Frame& frame, const Ray<T>& ray) {
     const LocalPoint<T> origin = to_local(frame, ray.origin);
     const Vec3<T> d = frame_linear<T>(frame) * ray.direction;
-    return {origin.y,
-            d,
-            {T(1) / d.x, T(1) / d.y, T(1) / d.z},
-            origin.error,
-            Vec3<T>(frame.row_norm) * (gamma<T>(5) * norm1(ray.direction))};
+    return {origin.y, d, origin.error, Vec3<T>(frame.row_norm) * (gamma<T>(5) * norm1(ray.direction))};
 }
 
-// Without a frame: a sphere's origin is moved by its centre, with one rounding of each.
+// Without a frame.
 template <class T>
 inline LocalPoint<T> to_sphere(const Leaf& leaf, const Vec3<T>& p) {
-    const Vec3<T> y = p - Vec3<T>(leaf.first);
-    return {y, (absolute(y) + absolute(Vec3<T>(leaf.first))) * gamma<T>(2)};
+    const Vec3<T> center(leaf.first), y = p - center;
+    return {y, sphere_point_error(y, center)};
 }
 
 template <class T>
@@ -80,9 +76,8 @@ inline Span<T> framed_span(const Leaf& leaf, const Frame& frame, const LocalRay<
 template <class T>
 inline LocalRay<T> leaf_ray(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
     if (leaf.frame >= 0) return local_ray(geometry.frames[std::size_t(leaf.frame)], ray);
-    if (leaf.kind == LeafKind::box) return {ray.origin, ray.direction, ray.reciprocal, Vec3<T>{}, Vec3<T>{}};
-    const LocalPoint<T> origin = to_sphere(leaf, ray.origin);
-    return {origin.y, ray.direction, ray.reciprocal, origin.error, Vec3<T>{}};
+    if (leaf.kind == LeafKind::box) return {ray.origin, ray.direction, Vec3<T>{}, Vec3<T>{}};
+    return sphere_ray(Vec3<T>(leaf.first), ray.origin, ray.direction);
 }
 
 template <class T>
@@ -95,6 +90,14 @@ inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T
     if (leaf.frame >= 0) return framed_span(leaf, geometry.frames[std::size_t(leaf.frame)], local);
     if (leaf.kind == LeafKind::sphere) return sphere_span(local, T(leaf.radius));
     return box_span(local, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
+}
+
+// What a search for the first crossing ahead needs of it.
+template <class T>
+inline Span<T> leaf_span_ahead(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    if (leaf.kind == LeafKind::sphere && leaf.frame < 0)
+        return sphere_span_ahead(sphere_ray(Vec3<T>(leaf.first), ray.origin, ray.direction), T(leaf.radius));
+    return leaf_span(geometry, leaf, ray);
 }
 
 // A cheap filter in T before the deciding type is asked: no only if the ray *certainly* does not meet the leaf's
@@ -148,6 +151,15 @@ inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int f
         return sphere_surface(local.y, direction, T(leaf.radius), local.error);
     }
     return box_surface(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second), Vec3<T>{});
+}
+
+// The second-order coefficient of a face's form along a direction, alone.
+template <class T>
+inline T leaf_curvature(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<T>& p,
+                        const Vec3<T>& direction) {
+    if (leaf.kind == LeafKind::sphere && leaf.frame < 0) return dot(direction, direction);
+    if (leaf.kind == LeafKind::polygon || leaf.kind == LeafKind::box || leaf.kind == LeafKind::disk) return T(0);
+    return leaf_surface(geometry, leaf, face, p, direction).curvature;
 }
 
 template <class T>

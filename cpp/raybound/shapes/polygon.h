@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raybound/shapes/disk.h"
+#include "raybound/shapes/shear.h"
 
 namespace raybound {
 
@@ -48,38 +49,19 @@ inline Vec3<T> plane_gradient(const PolygonPlane& plane) {
     return gradient;
 }
 
-// The ray's own coordinates: its largest direction component becomes z, the others are sheared away (Woop, Benthin and
-// Wald 2013). Edges shared by two polygons give the same floats from both sides, so nothing passes between them.
-template <class T>
-struct Shear {
-    int kx, ky, kz;
-    T sx, sy;
-
-    explicit Shear(const Vec3<T>& d) {
-        const Vec3<T> a = absolute(d);
-        kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
-        kx = (kz + 1) % 3;
-        ky = (kz + 2) % 3;
-        sx = d[kx] / d[kz];
-        sy = d[ky] / d[kz];
-    }
-    T x(const Vec3<T>& p) const { return p[kx] - sx * p[kz]; }
-    T y(const Vec3<T>& p) const { return p[ky] - sy * p[kz]; }
-};
-
-// Does the line pass through the polygon, seen from either side? A line through an edge or a vertex does. The sign of
-// ax by - ay bx is that of the exact value of the sheared coordinates, or it is zero (rounding is monotone; seeds/000,
-// 3.9.3), and zero counts for both sides.
+// Does the line pass through the polygon, seen from either side? A line through an edge or a vertex does: a side of
+// zero counts for both.
 template <class T>
 inline bool line_pierces(std::span<const Vec3d> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
     const Shear<T> shear(direction);
-    const Vec3<T> last = Vec3<T>(vertices.back()) - origin;
+    const auto seen = [&](const Vec3d& vertex) { return shear.permuted(Vec3<T>(vertex) - origin); };
+    const Vec3<T> last = seen(vertices.back());
     T ax = shear.x(last), ay = shear.y(last);
     bool left = true, right = true;
     for (const Vec3d& vertex : vertices) {
-        const Vec3<T> b = Vec3<T>(vertex) - origin;
+        const Vec3<T> b = seen(vertex);
         const T bx = shear.x(b), by = shear.y(b);
-        const T side = ax * by - ay * bx;
+        const T side = edge_side(ax, ay, bx, by);
         left = left && side >= T(0);
         right = right && side <= T(0);
         if (!(left || right)) return false;

@@ -18,6 +18,12 @@ struct Quadratic {
     T b_band;
 };
 
+// Which roots exist and lie ahead.
+template <class T>
+struct RootSigns {
+    Mask<T> real, low_ahead, high_ahead;
+};
+
 template <class T>
 struct Roots {
     T low, high;
@@ -28,26 +34,27 @@ struct Roots {
 // S = -2b/a the sum: P > 0 gives two roots of the sign of S, P < 0 one of each. Where |c| is within its band (the
 // origin is on the surface) one root is "at the origin" and not ahead; the other has the sign of S.
 template <class T>
+inline RootSigns<T> root_signs(const Quadratic<T>& q) {
+    const T sign = copysign(T(1), q.a);
+    const T product = q.c.value * sign, sum = -q.b * sign;
+    const Mask<T> at_surface = abs(q.c.value) <= q.c.band;
+    const Mask<T> rising = sum > select(at_surface, q.b_band, T(0));
+#ifdef RAYBOUND_SABOTAGE_PREDICATE
+    const Mask<T> low = (product > -q.c.band) & rising;  // the sabotage build: unknown is read as yes
+#else
+    const Mask<T> low = (product > q.c.band) & rising;
+#endif
+    return {q.discriminant.value >= T(0), low, (product < -q.c.band) | rising};
+}
+
+template <class T>
 inline Roots<T> solve(const Quadratic<T>& q) {
+    const RootSigns<T> signs = root_signs(q);
     const T root = sqrt(maximum(T(0), q.discriminant.value));
     const T stable = -(q.b + copysign(root, q.b));
     const T first = stable / q.a;
     const T second = select(stable == T(0), first, q.c.value / stable);
-    const T sign = copysign(T(1), q.a);
-    const T product = q.c.value * sign, sum = -q.b * sign;
-    Roots<T> roots;
-    roots.low = minimum(first, second);
-    roots.high = maximum(first, second);
-    roots.real = q.discriminant.value >= T(0);
-    const Mask<T> at_surface = abs(q.c.value) <= q.c.band;
-    const Mask<T> rising = sum > select(at_surface, q.b_band, T(0));
-#ifdef RAYBOUND_SABOTAGE_PREDICATE
-    roots.low_ahead = (product > -q.c.band) & rising;  // the sabotage build: unknown is read as yes
-#else
-    roots.low_ahead = (product > q.c.band) & rising;
-#endif
-    roots.high_ahead = (product < -q.c.band) | rising;
-    return roots;
+    return {minimum(first, second), maximum(first, second), signs.real, signs.low_ahead, signs.high_ahead};
 }
 
 // |f . d computed - exact| where the components of f and d have the given errors: three products and two sums, and the
@@ -89,6 +96,12 @@ inline Mask<T> certainly_missed(const Quadratic<T>& q) {
 template <class T>
 inline Span<T> between(const Roots<T>& roots, int face) {
     return {roots.low, roots.high, face, face, roots.real, roots.low_ahead, roots.high_ahead};
+}
+
+template <class T>
+inline Span<T> no_span() {
+    const Mask<T> no(false);
+    return {T(0), T(0), 0, 0, no, no, no};
 }
 
 }  // namespace raybound

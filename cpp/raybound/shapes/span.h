@@ -9,7 +9,7 @@ namespace raybound {
 // from those that the exact map of the shape gives (derivation D1).
 template <class T>
 struct LocalRay {
-    Vec3<T> origin, direction, reciprocal;
+    Vec3<T> origin, direction;
     Vec3<T> origin_error, direction_error;
 };
 
@@ -43,7 +43,7 @@ inline Span<T> clip(const Span<T>& a, const Span<T>& b) {
 // parallel.
 template <class T>
 inline Span<T> slab_span(const LocalRay<T>& ray, int axis, T lower, T upper, int lower_face) {
-    const T f = ray.origin[axis], d = ray.direction[axis], r = ray.reciprocal[axis], band = ray.origin_error[axis];
+    const T f = ray.origin[axis], d = ray.direction[axis], r = T(1) / d, band = ray.origin_error[axis];
     const T below = lower - f, above = f - upper;  // > 0: outside
     const Mask<T> parallel = (abs(d) <= ray.direction_error[axis]) | !(abs(r) < infinity<T>);
     const Mask<T> forward = d > T(0), within = (below <= T(0)) & (above <= T(0));

@@ -29,9 +29,32 @@ inline Quadratic<T> sphere_quadratic(const LocalRay<T>& ray, T radius) {
     return q;
 }
 
+// A point from a sphere's centre, with one rounding of each.
+template <class T>
+inline Vec3<T> sphere_point_error(const Vec3<T>& y, const Vec3<T>& center) {
+    return (absolute(y) + absolute(center)) * gamma<T>(2);
+}
+
+// A ray in the coordinates of a sphere without a frame.
+template <class T>
+inline LocalRay<T> sphere_ray(const Vec3<T>& center, const Vec3<T>& origin, const Vec3<T>& direction) {
+    const Vec3<T> y = origin - center;
+    return {y, direction, sphere_point_error(y, center), {}};
+}
+
 template <class T>
 inline Span<T> sphere_span(const LocalRay<T>& ray, T radius) {
     return between(solve(sphere_quadratic(ray, radius)), 0);
+}
+
+// The part of it ahead of the origin: the same, but nothing is said of a line whose crossings lie behind, which most
+// rays that leave a sphere are to it.
+template <class T>
+inline Span<T> sphere_span_ahead(const LocalRay<T>& ray, T radius) {
+    const Quadratic<T> q = sphere_quadratic(ray, radius);
+    const RootSigns<T> signs = root_signs(q);
+    if (none(signs.real & signs.high_ahead)) return no_span<T>();
+    return between(solve(q), 0);
 }
 
 template <class T>

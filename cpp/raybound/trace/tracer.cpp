@@ -10,13 +10,14 @@ struct Tracer<T>::Shadable {
     SurfacePoint<T> hit;
     const Material& material;
     Vec3<T> normal, view, diffuse;
+    Departure outer, inner;  // of rays that leave on the viewer's side, and on the other
 };
 
 template <class T>
 EyeSample<T> Tracer<T>::sample(const Vec3<T>& origin, const Vec3<T>& direction) {
     EyeSample<T> first{{}, infinity<T>, -1};
     ++counts_.eye;
-    first.radiance = radiance(make_ray(origin, direction), 1, NoRecord{}, &first);
+    first.radiance = radiance(make_ray(origin, direction), {}, 1, NoRecord{}, &first);
     return first;
 }
 
@@ -24,15 +25,15 @@ template <class T>
 RayTreeNode Tracer<T>::ray_tree(const Vec3<T>& origin, const Vec3<T>& direction) {
     RayTreeNode root;
     ++counts_.eye;
-    radiance(make_ray(origin, direction), 1, RecordTree{&root}, nullptr);
+    radiance(make_ray(origin, direction), {}, 1, RecordTree{&root}, nullptr);
     return root;
 }
 
 template <class T>
 template <class Record>
-Vec3<T> Tracer<T>::radiance(const Ray<T>& ray, int depth, Record record, EyeSample<T>* first) {
+Vec3<T> Tracer<T>::radiance(const Ray<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return {};
-    const Nearest<T> nearest = closest_hit(scene_, ray, settings_.acceleration);
+    const Nearest<T> nearest = closest_hit(scene_, ray, departed, settings_.acceleration);
     Vec3<T> value(scene_.background());
     T t = infinity<T>;
     if (nearest.hit) value = shade(ray, nearest, depth, record, &t);
@@ -54,10 +55,16 @@ template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth, Record record, T* t) {
     const Geometry& geometry = scene_.geometry();
-    const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, widen(ray));
+    const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, nearest.ray, false);
     const Material& material = *scene_.objects()[geometry.primitives[nearest.primitive].object].material;
     const Vec3<T> diffuse = material.texture ? material.texture->lookup(hit.uv) : Vec3<T>(material.diffuse);
-    const Shadable at{hit, material, hit.entering ? hit.normal : -hit.normal, -ray.direction, diffuse};
+    const Shadable at{hit,
+                      material,
+                      hit.entering ? hit.normal : -hit.normal,
+                      -ray.direction,
+                      diffuse,
+                      departure(geometry, nearest.primitive, hit.entering),
+                      departure(geometry, nearest.primitive, !hit.entering)};
     *t = hit.t;
     if constexpr (Record::active) {
         record.node->point = Vec3d(hit.point);
@@ -100,7 +107,7 @@ bool Tracer<T>::is_lit(const Shadable& at, const Light& light, const Vec3<T>& di
     const Vec3<T> origin = offset_origin(at.hit.point, at.hit.point_error, at.normal);
     const bool directional = light.kind == LightKind::directional;
     const Ray<T> ray = directional ? make_ray(origin, direction) : make_segment(origin, Vec3<T>(light.position));
-    return !is_blocked(scene_, ray, blocker, settings_.acceleration);
+    return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration);
 }
 
 // local + reflect L(R) + transmit L(T), in this order.
@@ -124,12 +131,12 @@ Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const 
         ++counts_.reflected;
         const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, at.normal),
                                      reflected_direction(ray.direction, at.normal));
-        sum = saturate(sum + reflect * radiance(next, depth + 1, record.child(RayKind::reflected), nullptr));
+        sum = saturate(sum + reflect * radiance(next, at.outer, depth + 1, record.child(RayKind::reflected), nullptr));
     }
     if (max_component(transmit) > T(0)) {
         ++counts_.refracted;
         const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, -at.normal), through);
-        sum = saturate(sum + transmit * radiance(next, depth + 1, record.child(RayKind::refracted), nullptr));
+        sum = saturate(sum + transmit * radiance(next, at.inner, depth + 1, record.child(RayKind::refracted), nullptr));
     }
     return sum;
 }

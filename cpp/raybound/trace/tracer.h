@@ -49,7 +49,7 @@ class alignas(64) Tracer {
     struct Shadable;
 
     template <class Record>
-    Vec3<T> radiance(const Ray<T>& ray, int depth, Record record, EyeSample<T>* first);
+    Vec3<T> radiance(const Ray<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first);
     template <class Record>
     Vec3<T> shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth, Record record, T* t);
     template <class Record>

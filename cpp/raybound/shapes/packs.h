@@ -1,0 +1,69 @@
+// Eight spheres or triangles side by side, as filters before the deciding type: a lane is dropped only if the ray
+// certainly does not meet it.
+#pragma once
+
+#include "raybound/shapes/sphere.h"
+#include "raybound/shapes/triangle.h"
+
+namespace raybound {
+
+struct alignas(32) SpherePack {
+    float center[3][pack_width] = {}, radius[pack_width] = {};
+    std::uint32_t id[pack_width] = {};
+    std::uint32_t lanes = 0;  // a bit for each lane in use
+};
+
+struct alignas(32) TrianglePack {
+    float corner[3][3][pack_width] = {};  // by corner and axis
+    std::uint32_t id[pack_width] = {};
+    std::uint32_t lanes = 0;
+    float error = 0;  // how far each coordinate may be from the corner it was rounded from
+};
+
+template <class T>
+inline Vec3<Pack<T>> broadcast(const Vec3<T>& v) {
+    return {Pack<T>(v.x), Pack<T>(v.y), Pack<T>(v.z)};
+}
+
+// What the filter needs of a ray.
+template <class T>
+struct TrianglePackRay {
+    Shear<T> scalar_shear;
+    Shear<Pack<T>> shear;
+    Vec3<Pack<T>> origin;  // permuted
+    T origin_error;
+
+    TrianglePackRay(const Vec3<T>& o, const Vec3<T>& direction, T error)
+        : scalar_shear(direction),
+          shear(scalar_shear),
+          origin(broadcast(scalar_shear.permuted(o))),
+          origin_error(error) {}
+};
+
+template <class T>
+inline std::uint32_t may_cross(const SpherePack& pack, const Vec3<T>& origin, const Vec3<T>& direction) {
+    using P = Pack<T>;
+    const Vec3<P> center{P::load(pack.center[0]), P::load(pack.center[1]), P::load(pack.center[2])};
+    const Quadratic<P> q = sphere_quadratic(sphere_ray(center, broadcast(origin), broadcast(direction)), P::load(pack.radius));
+    return bits(!certainly_missed(q)) & pack.lanes;
+}
+
+template <class T>
+inline Vec3<Pack<T>> load_corner(const TrianglePack& pack, int corner, const Shear<T>& shear) {
+    const auto& c = pack.corner[corner];
+    return {Pack<T>::load(c[shear.kx]), Pack<T>::load(c[shear.ky]), Pack<T>::load(c[shear.kz])};
+}
+
+// `t_max` is measured along the ray; hits that are certainly farther are of no interest.
+template <class T>
+inline std::uint32_t may_cross(const TrianglePack& pack, const TrianglePackRay<T>& ray, T t_max) {
+    using P = Pack<T>;
+    const Shear<T>& s = ray.scalar_shear;
+    const Corners<P> corners{load_corner(pack, 0, s), load_corner(pack, 1, s), load_corner(pack, 2, s)};
+    const EdgeFunctions<P> edges =
+        edge_functions(corners, ray.origin, P(ray.origin_error + T(pack.error)), ray.shear);
+    const T reach = t_max * abs(s.dz) * (T(1) + gamma<T>(8));
+    return bits(may_pierce(edges, ray.shear, P(reach))) & pack.lanes;
+}
+
+}  // namespace raybound
