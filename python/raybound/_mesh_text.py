@@ -1,0 +1,183 @@
+"""Checks of mesh files that are text, before a library reads them: errors name the line, and nothing is left out silently.
+
+Each function returns the text in the one form that every reader takes alike.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NoReturn
+
+
+def _lines(text: str) -> Iterator[tuple[int, list[str]]]:
+    """The lines that are not empty, with their numbers, as words."""
+    for number, line in enumerate(text.splitlines(), 1):
+        words = line.split()
+        if words:
+            yield number, words
+
+
+def _fail(line: int, message: str) -> NoReturn:
+    raise ValueError(f"line {line}: {message}")
+
+
+def _numbers(line: int, what: str, words: list[str], least: int) -> list[str]:
+    """The words, which must be finite numbers, `least` or more."""
+    if len(words) < least:
+        _fail(line, f"{what} must have {least} numbers, got {len(words)}")
+    for word in words:
+        try:
+            good = math.isfinite(float(word))
+        except ValueError:
+            good = False
+        if not good or "_" in word:
+            _fail(line, f"{what} must have finite numbers, got {word!r}")
+    return words
+
+
+# Wavefront OBJ
+
+_KINDS = {"v": "vertex", "vt": "texture coordinate", "vn": "normal"}
+_LEAST = {"v": 3, "vt": 2, "vn": 3}
+
+
+def checked_obj(text: str) -> tuple[str, bool]:
+    """An OBJ file's vertices and faces, and whether some but not all corners have texture coordinates or normals.
+
+    Indices are made absolute; colours, materials, groups, lines and points are left out.
+    """
+    counts = dict.fromkeys(_KINDS, 0)
+    used = dict.fromkeys(_KINDS, 0)  # corners that have one
+    highest = dict.fromkeys(_KINDS, (0, 0))  # an index and its line: faces may come before what they refer to
+    result: list[str] = []
+    for line, (key, *words) in _lines(_joined(text)):
+        words = words[: words.index("#")] if "#" in words else words
+        if key in _KINDS:
+            _numbers(line, key, words, _LEAST[key])
+            counts[key] += 1
+            result.append(f"{key} {' '.join(words[: _LEAST[key]])}")
+        elif key == "f":
+            if len(words) < 3:
+                _fail(line, f"f must have at least 3 corners, got {len(words)}")
+            result.append("f " + " ".join(_corner(line, word, counts, used, highest) for word in words))
+    for kind, (index, line) in highest.items():
+        if index > counts[kind]:
+            _fail(line, f"f refers to {_KINDS[kind]} {index}, but the file has {counts[kind]}")
+    mixed = any(0 < used[kind] < used["v"] for kind in ("vt", "vn"))
+    return "\n".join(result) + "\n", mixed
+
+
+def _joined(text: str) -> str:
+    """The text with continued lines joined, keeping the number of each line's start."""
+    if "\\\n" not in text.replace("\r\n", "\n"):
+        return text
+    lines = text.splitlines()
+    for i in range(len(lines) - 1, 0, -1):
+        if lines[i - 1].endswith("\\"):
+            lines[i - 1] = lines[i - 1][:-1] + " " + lines[i]
+            lines[i] = ""
+    return "\n".join(lines)
+
+
+def _corner(
+    line: int, word: str, counts: dict[str, int], used: dict[str, int], highest: dict[str, tuple[int, int]]
+) -> str:
+    """A corner such as 3/1/2 or -1//-1 with absolute indices."""
+    parts = word.split("/")
+    if len(parts) > 3 or not parts[0]:
+        _fail(line, f"a corner of f must be v, v/vt, v//vn or v/vt/vn, got {word!r}")
+    found = []
+    for kind, part in zip(_KINDS, parts, strict=False):
+        if not part:
+            found.append("")
+            continue
+        try:
+            index = int(part)
+        except ValueError:
+            index = 0
+        absolute = index if index > 0 else counts[kind] + 1 + index
+        if index == 0 or absolute < 1:
+            _fail(line, f"a corner of f must have indices from 1, or from -1 back to the first, got {word!r}")
+        used[kind] += 1
+        highest[kind] = max(highest[kind], (absolute, -line))
+        found.append(str(absolute))
+    return "/".join(found).rstrip("/")
+
+
+# STL
+
+_STL_ORDER = {  # what may come before each keyword
+    "facet": ("solid", "endfacet"),
+    "outer": ("facet",),
+    "vertex": ("outer", "vertex"),
+    "endloop": ("vertex",),
+    "endfacet": ("endloop",),
+    "endsolid": ("solid", "endfacet"),
+    "solid": ("", "endsolid"),
+}
+
+
+def checked_stl(text: str) -> str:
+    """All triangles of an ASCII STL file as one solid."""
+    before, corners, line = "", 0, 0
+    result: list[str] = []
+    for line, (key, *words) in _lines(text):
+        key = key.lower()
+        if before not in _STL_ORDER.get(key, ()):
+            _fail(line, f"{' or '.join(k for k, v in _STL_ORDER.items() if before in v)} must follow, got {key!r}")
+        corners = corners + 1 if key == "vertex" else 0 if key == "facet" else corners
+        if corners > 3 or (key == "endloop" and corners < 3):
+            _fail(line, f"a facet must have 3 vertices, got {corners}{' or more' * (corners > 3)}")
+        if key == "vertex":
+            _numbers(line, "vertex", words, 3)
+            result.append(f"vertex {' '.join(words[:3])}")
+        before = key
+    if before != "endsolid":
+        _fail(max(line, 1), "the file must go on to endsolid, got its end")
+    return "\n".join(["solid mesh", *result, "endsolid mesh"]) + "\n"
+
+
+# PLY
+
+
+def check_ply(text: str) -> None:
+    """Checks the rows of an ASCII PLY file against its header."""
+    lines = _lines(text)
+    elements: list[tuple[str, int, list[bool]]] = []  # name, rows, and for each property whether it is a list
+    line, last = 1, "ply"
+    for line, words in lines:
+        last = words[0]
+        if last == "end_header":
+            break
+        if last == "element":
+            if len(words) != 3 or not words[2].isdecimal():
+                _fail(line, f"element must have a name and a count, got {' '.join(words[1:])!r}")
+            elements.append((words[1], int(words[2]), []))
+        elif last == "property":
+            if not elements:
+                _fail(line, "property must follow an element, got none")
+            elements[-1][2].append(words[1:2] == ["list"])
+    if last != "end_header":
+        _fail(line, "the header must go on to end_header, got the end of the file")
+    for name, count, properties in elements:
+        for row in range(count):
+            line, words = next(lines, (line, []))
+            if not words:
+                _fail(line, f"element {name!r} must have {count} rows, got {row}")
+            _check_row(line, name, words, properties)
+
+
+def _check_row(line: int, name: str, words: list[str], properties: list[bool]) -> None:
+    """A row must have a number for each property, or a count and as many for a list."""
+    _numbers(line, name, words, 1)
+    at = 0
+    for is_list in properties:
+        length = 1
+        if is_list and at < len(words):
+            if not words[at].isdecimal():
+                _fail(line, f"a list of {name} must start with its length, got {words[at]!r}")
+            length += int(words[at])
+        at += length
+    if at != len(words):
+        _fail(line, f"{name} must have {at} numbers, got {len(words)}")
