@@ -42,7 +42,7 @@ def upwards(uvs: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
 
 def _stripped(header: Any, uv: str) -> dict[str, Any]:
     if not isinstance(header, dict):
-        raise ValueError("the header must be a JSON object")
+        raise ValueError("the header must be a JSON object")  # noqa: TRY004  # of a file, not of an argument
     for name in header.get("extensionsRequired", []):
         if not name.startswith("KHR_materials_"):
             raise ValueError(f"the file needs the extension {name}, which cannot be read")

@@ -1,4 +1,4 @@
-"""Checks of mesh files that are text, before a library reads them: errors name the line, and nothing is left out silently.
+"""Checks of mesh files that are text, before a library reads them: errors name the line, and nothing gets lost unsaid.
 
 Each function returns the text in the one form that every reader takes alike.
 """

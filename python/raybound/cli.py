@@ -48,7 +48,9 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_render(render: argparse.ArgumentParser) -> None:
-    render.add_argument("scene", metavar="SCENE", help="a .json or .nff file, museum, three_spheres, or sphereflake:LEVELS")
+    render.add_argument(
+        "scene", metavar="SCENE", help="a .json or .nff file, museum, three_spheres, or sphereflake:LEVELS"
+    )
     render.add_argument("-o", "--out", metavar="OUT", required=True, help="the image file, such as a.png or a.exr")
     render.add_argument(
         "--camera", help="a JSON object with Camera's arguments, or --camera=ex,ey,ez,tx,ty,tz (eye and target)"

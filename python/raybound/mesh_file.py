@@ -7,16 +7,13 @@ import io
 import logging
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _gltf, _mesh_text, _validate
 from .meshes import Mesh
-
-if TYPE_CHECKING:
-    import trimesh
 
 SUFFIXES = (".obj", ".ply", ".stl", ".gltf", ".glb")
 UV = "_raybound_uv"
@@ -112,7 +109,7 @@ def _parts(data: bytes, suffix: str, source: str, **options: Any) -> list[_Part]
     return [part for part in found if len(part.faces)]
 
 
-def _part(geometry: trimesh.Trimesh, matrix: npt.NDArray[np.float64]) -> _Part:
+def _part(geometry: Any, matrix: npt.NDArray[np.float64]) -> _Part:
     """A geometry moved by a 4 x 4 matrix."""
     vertices, faces = np.array(geometry.vertices), np.array(geometry.faces)
     # Read by the property alone, trimesh would make normals where the file has none.

@@ -74,7 +74,7 @@ def _check_count(name: str, count: int, least: int, unit: str) -> None:
 
 
 def _digest(*arrays: FloatArray | IndexArray | None) -> bytes:
-    """What equality and hashes look at, so that meshes of a million triangles stay quick; makes the arrays read-only."""
+    """What equality and hashes look at: quick for a million triangles, too. Makes the arrays read-only."""
     digest = hashlib.sha256()
     for array in arrays:
         digest.update(repr(None if array is None else array.shape).encode())

@@ -3,12 +3,12 @@
 Source: Eric Haines, "Neutral File Format", version 3.9, and "A Proposal for Standard Graphics Environments", IEEE
 Computer Graphics and Applications 7(11), 1987. What the format leaves open is decided here:
 
-* `angle` is the vertical field of view. The picture is not mirrored: x grows along cross(view, up). `hither` is read
-  and has no effect.
+* Colours are linear RGB. `angle` is the vertical field of view. The picture is not mirrored: x grows along
+  cross(view, up). `hither` is read and has no effect.
 * Each of n lights has the intensity sqrt(n) / (2 n) that the SPD suggest, times its colour if it has one, without
   falloff; ambient light has that value, too (as for one light, where there is none).
 * `f r g b Kd Ks Shine T ior` is `Material(Kd * rgb, specular, roughness, reflect=Ks, transmit=T, ior)`, with `specular`
-  and `roughness` as `ward_lobe` fits them to Phong's highlight.
+  and `roughness` as `fit_highlight` fits them to Phong's highlight.
 * Every primitive is one object, in the file's order: a `Sphere`; a `Cylinder` or `Cone`, which unlike NFF's have caps;
   a `Polygon` where it is convex and planar, else a `Mesh`; a `Mesh` with normals for a patch. All are two-sided: the
   sign of a radius, which only tells the visible side, has no effect.
@@ -39,19 +39,21 @@ CONE = tuple(f"{end}{part}" for end in ("base", "apex") for part in (".x", ".y",
 SPHERE = ("center.x", "center.y", "center.z", "radius")
 VIEW = {
     **{key: tuple(f"{key}.{axis}" for axis in "xyz") for key in ("from", "at", "up")},
-    **{"angle": ("angle",), "hither": ("hither",), "resolution": ("xres", "yres")},
+    "angle": ("angle",),
+    "hither": ("hither",),
+    "resolution": ("xres", "yres"),
 }
 LOWEST_SIGMA, HIGHEST_SIGMA = 1e-4, 1.0  # Material's lower limit; at 1 the lobe is as wide as the hemisphere
 
 
-def ward_lobe(ks: float, shine: float) -> tuple[float, float]:
+def fit_highlight(ks: float, shine: float) -> tuple[float, float]:
     """(specular, roughness) of the Ward lobe that is closest to Phong's highlight Ks (R.V)^n, n = shine >= 0.
 
     In the plane of N, L and V the angle between R and V is twice the angle d between N and H. With x = tan(d)^2,
 
         cos(2 d) = (1 - x) / (1 + x),    so    cos(2 d)^n = exp(-2 n artanh(x)) = exp(-2 n (x + x^3/3 + ...)),
 
-    and Ward's lobe is exp(-x / sigma^2): with sigma = 1 / sqrt(2 n) the two agree up to the third power of x. Its
+    and Ward's lobe is exp(-x / sigma^2): with sigma = 1 / sqrt(2 n) the exponents differ from x^3 on only. Its
     peak, at d = 0, is rho_s / (4 sigma^2), so rho_s = 4 sigma^2 Ks makes it Phong's. sigma is clamped to [1e-4, 1], and
     the peak stays.
     """
@@ -153,7 +155,7 @@ class _Loader:
         red, green, blue, kd, ks, shine, transmit, ior = self.colour(SURFACE)
         if transmit > 0 and not ior > 0:
             self.words.expect("index_of_refraction must be > 0 where T > 0", first + len(SURFACE) - 1)
-        specular, roughness = ward_lobe(ks, shine)
+        specular, roughness = fit_highlight(ks, shine)
         self.material = self.words.make(
             Material,
             (kd * red, kd * green, kd * blue),

@@ -170,10 +170,11 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     """Reads a scene with its camera from a .json file (ours) or an .nff file (the Neutral File Format).
 
     What NFF leaves open is decided as the Standard Procedural Databases suggest: `angle` is the vertical field of view;
-    each of n lights has the intensity sqrt(n) / (2 n), times its colour if it has one, without falloff, and ambient light
-    the same; Phong's highlight becomes the Ward lobe of equal peak and width, sigma = 1 / sqrt(2 Shine). Cones and
-    cylinders, which have no caps in NFF, are solids here. Each primitive is one object without a name, in the file's
-    order; polygons that are not convex and planar become meshes of triangles, which takes the extra `raybound[mesh]`.
+    each of n lights has the intensity sqrt(n) / (2 n), times its colour if it has one, without falloff, and ambient
+    light the same; Phong's highlight becomes the Ward lobe of equal peak and width, sigma = 1 / sqrt(2 Shine). Cones
+    and cylinders, which have no caps in NFF, are solids here. Each primitive is one object without a name, in the
+    file's order; polygons that are not convex and planar become meshes of triangles, which takes the extra
+    `raybound[mesh]`.
 
     Raises FileNotFoundError if the file (or a texture's) is missing, ValueError for an unknown extension, for text that
     is not JSON or NFF, and for unknown, missing or wrong entries, naming them (and the line, for NFF), ImportError if
