@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import struct
+import urllib.parse
 from typing import Any
 
 import numpy as np
@@ -48,6 +49,9 @@ def _stripped(header: Any, uv: str) -> dict[str, Any]:
             raise ValueError(f"the file needs the extension {name}, which cannot be read")
     for key in ("materials", "textures", "images", "samplers", "animations", "skins", "cameras"):
         header.pop(key, None)
+    for buffer in header.get("buffers", []):
+        if not buffer.get("uri", "data:").startswith("data:"):
+            buffer["uri"] = urllib.parse.unquote(buffer["uri"])
     for i, mesh in enumerate(header.get("meshes", [])):
         for primitive in mesh["primitives"]:
             if primitive.get("mode", TRIANGLES) == FAN:

@@ -49,7 +49,7 @@ def checked_obj(text: str) -> tuple[str, bool]:
     """
     counts = dict.fromkeys(_KINDS, 0)
     used = dict.fromkeys(_KINDS, 0)  # corners that have one
-    highest = dict.fromkeys(_KINDS, (0, 0))  # an index and its line: faces may come before what they refer to
+    highest = dict.fromkeys(_KINDS, (0, 0))  # an index and minus its first line: faces may precede what they refer to
     result: list[str] = []
     for line, (key, *words) in _lines(_joined(text)):
         words = words[: words.index("#")] if "#" in words else words
@@ -61,9 +61,9 @@ def checked_obj(text: str) -> tuple[str, bool]:
             if len(words) < 3:
                 _fail(line, f"f must have at least 3 corners, got {len(words)}")
             result.append("f " + " ".join(_corner(line, word, counts, used, highest) for word in words))
-    for kind, (index, line) in highest.items():
+    for kind, (index, minus_line) in highest.items():
         if index > counts[kind]:
-            _fail(line, f"f refers to {_KINDS[kind]} {index}, but the file has {counts[kind]}")
+            _fail(-minus_line, f"f refers to {_KINDS[kind]} {index}, but the file has {counts[kind]}")
     mixed = any(0 < used[kind] < used["v"] for kind in ("vt", "vn"))
     return "\n".join(result) + "\n", mixed
 

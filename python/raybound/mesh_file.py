@@ -37,9 +37,9 @@ def load_mesh(path: str | os.PathLike[str]) -> Mesh:
     geometries have them, else left out with a logged warning. Vertices are not merged, but those of an STL file, which
     has three for each triangle, are where they are equal as float32. Colours and materials are left out.
 
-    Raises FileNotFoundError if there is no such file, ImportError without trimesh, and ValueError naming the path (and
-    the line or the face where it can be told) for an unknown extension and for a file that is malformed, truncated or
-    without triangles, or that has a number that is not finite.
+    Raises FileNotFoundError if there is no such file (or none that it refers to), ImportError without trimesh, and
+    ValueError naming the path (and the line or the face where it can be told) for an unknown extension and for a file
+    that is malformed, truncated or without triangles, or that has a number that is not finite.
     """
     source = _validate.file_path("load_mesh", "path", path)
     suffix = Path(source).suffix.lower()
@@ -53,6 +53,9 @@ def load_mesh(path: str | os.PathLike[str]) -> Mesh:
         raise ImportError("load_mesh needs trimesh: pip install 'raybound[mesh]'") from None
     try:
         return _joined(source, _read(source, suffix))
+    except FileNotFoundError as error:  # of a glTF file's buffer
+        lost = error.filename or str(error)
+        raise FileNotFoundError(errno.ENOENT, f"load_mesh: {source!r} refers to a missing file", lost) from None
     except (MemoryError, OSError):
         raise
     except Exception as error:  # a malformed file may raise anything in the library
