@@ -22,18 +22,20 @@ def _fail(line: int, message: str) -> NoReturn:
     raise ValueError(f"line {line}: {message}")
 
 
-def _numbers(line: int, what: str, words: list[str], least: int) -> list[str]:
-    """The words, which must be finite numbers, `least` or more."""
+def _numbers(line: int, what: str, words: list[str], least: int) -> None:
+    """The words must be finite numbers, `least` or more."""
     if len(words) < least:
         _fail(line, f"{what} must have {least} numbers, got {len(words)}")
-    for word in words:
-        try:
-            good = math.isfinite(float(word))
-        except ValueError:
-            good = False
-        if not good or "_" in word:
-            _fail(line, f"{what} must have finite numbers, got {word!r}")
-    return words
+    if not _are_finite(words):
+        culprit = next(word for word in words if not _are_finite([word]))
+        _fail(line, f"{what} must have finite numbers, got {culprit!r}")
+
+
+def _are_finite(words: list[str]) -> bool:
+    try:
+        return all(map(math.isfinite, map(float, words))) and "_" not in "".join(words)
+    except ValueError:
+        return False
 
 
 # Wavefront OBJ
@@ -48,8 +50,7 @@ def checked_obj(text: str) -> tuple[str, bool]:
     Indices are made absolute; colours, materials, groups, lines and points are left out.
     """
     counts = dict.fromkeys(_KINDS, 0)
-    used = dict.fromkeys(_KINDS, 0)  # corners that have one
-    highest = dict.fromkeys(_KINDS, (0, 0))  # an index and minus its first line: faces may precede what they refer to
+    corners = _Corners(counts)
     result: list[str] = []
     for line, (key, *words) in _lines(_joined(text)):
         words = words[: words.index("#")] if "#" in words else words
@@ -60,12 +61,10 @@ def checked_obj(text: str) -> tuple[str, bool]:
         elif key == "f":
             if len(words) < 3:
                 _fail(line, f"f must have at least 3 corners, got {len(words)}")
-            result.append("f " + " ".join(_corner(line, word, counts, used, highest) for word in words))
-    for kind, (index, minus_line) in highest.items():
-        if index > counts[kind]:
-            _fail(-minus_line, f"f refers to {_KINDS[kind]} {index}, but the file has {counts[kind]}")
-    mixed = any(0 < used[kind] < used["v"] for kind in ("vt", "vn"))
-    return "\n".join(result) + "\n", mixed
+            known = corners.known
+            result.append("f " + " ".join([known.get(word) or corners.read(line, word) for word in words]))
+    corners.check_range()
+    return "\n".join(result) + "\n", corners.mixed
 
 
 def _joined(text: str) -> str:
@@ -80,29 +79,43 @@ def _joined(text: str) -> str:
     return "\n".join(lines)
 
 
-def _corner(
-    line: int, word: str, counts: dict[str, int], used: dict[str, int], highest: dict[str, tuple[int, int]]
-) -> str:
-    """A corner such as 3/1/2 or -1//-1 with absolute indices."""
-    parts = word.split("/")
-    if len(parts) > 3 or not parts[0]:
-        _fail(line, f"a corner of f must be v, v/vt, v//vn or v/vt/vn, got {word!r}")
-    found = []
-    for kind, part in zip(_KINDS, parts, strict=False):
-        if not part:
-            found.append("")
-            continue
-        try:
-            index = int(part)
-        except ValueError:
-            index = 0
-        absolute = index if index > 0 else counts[kind] + 1 + index
+class _Corners:
+    """The corners of faces, such as 3/1/2 or -1//-1, with absolute indices."""
+
+    def __init__(self, counts: dict[str, int]) -> None:
+        self.counts = counts  # of each kind, so far
+        self.known: dict[str, str] = {}  # corners that mean the same wherever they stand
+        self.highest = dict.fromkeys(_KINDS, (0, 0))  # an index and its line: faces may precede what they refer to
+        self.forms: set[tuple[bool, bool]] = set()  # with texture coordinates, with normals
+
+    def read(self, line: int, word: str) -> str:
+        parts = word.split("/")
+        if len(parts) > 3 or not parts[0]:
+            _fail(line, f"a corner of f must be v, v/vt, v//vn or v/vt/vn, got {word!r}")
+        found = [self.index(line, word, kind, part) if part else "" for kind, part in zip(_KINDS, parts, strict=False)]
+        self.forms.add((len(found) > 1 and found[1] != "", len(found) > 2 and found[2] != ""))
+        result = "/".join(found).rstrip("/")
+        if "-" not in word:
+            self.known[word] = result
+        return result
+
+    def index(self, line: int, word: str, kind: str, part: str) -> str:
+        index = int(part) if part.removeprefix("-").isdecimal() else 0
+        absolute = index if index > 0 else self.counts[kind] + 1 + index
         if index == 0 or absolute < 1:
             _fail(line, f"a corner of f must have indices from 1, or from -1 back to the first, got {word!r}")
-        used[kind] += 1
-        highest[kind] = max(highest[kind], (absolute, -line))
-        found.append(str(absolute))
-    return "/".join(found).rstrip("/")
+        if absolute > self.highest[kind][0]:
+            self.highest[kind] = (absolute, line)
+        return str(absolute)
+
+    def check_range(self) -> None:
+        for kind, (index, line) in self.highest.items():
+            if index > self.counts[kind]:
+                _fail(line, f"f refers to {_KINDS[kind]} {index}, but the file has {self.counts[kind]}")
+
+    @property
+    def mixed(self) -> bool:
+        return any(len({form[kind] for form in self.forms}) > 1 for kind in (0, 1))
 
 
 # STL
