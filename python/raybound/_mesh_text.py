@@ -154,9 +154,13 @@ def checked_stl(text: str) -> str:
 # PLY
 
 
-def check_ply(text: str) -> None:
-    """Checks the rows of an ASCII PLY file against its header."""
-    lines = _lines(text)
+def checked_ply(text: str) -> str:
+    """An ASCII PLY file without empty lines, its rows checked against the header."""
+    _check_rows(_lines(text))
+    return "\n".join(" ".join(words) for _, words in _lines(text)) + "\n"
+
+
+def _check_rows(lines: Iterator[tuple[int, list[str]]]) -> None:
     elements: list[tuple[str, int, list[bool]]] = []  # name, rows, and for each property whether it is a list
     line, last = 1, "ply"
     for line, words in lines:

@@ -71,15 +71,24 @@ def _read(source: str, suffix: str) -> list[_Part]:
     if suffix == ".stl":
         return [_merged(part) for part in _parts(_checked_stl(data), suffix, source)]
     if suffix == ".ply":
-        header = data[: data.find(b"end_header")]
-        if b"\nformat ascii" in header.replace(b"\r", b"\n"):
-            _mesh_text.check_ply(data.decode("utf-8"))
-        # Texture coordinates of faces need vertices of their own; those of vertices must keep the vertices as they are.
-        return _parts(data, suffix, source, fix_texture=b"texcoord" in header)
+        return _read_ply(data, source)
     text, mixed = _mesh_text.checked_obj(data.decode("utf-8", errors="replace"))
     if mixed:
         log.warning("%s: only some corners have texture coordinates or normals; such kinds are left out", source)
     return _parts(text.encode(), suffix, source)
+
+
+def _read_ply(data: bytes, source: str) -> list[_Part]:
+    header = data[: data.find(b"end_header")].replace(b"\r", b"\n")
+    if b"\nformat ascii" in header:
+        data = _mesh_text.checked_ply(data.decode("utf-8")).encode()
+    # Where faces have texture coordinates, trimesh splits vertices, but not the vertices' normals.
+    splits = b"texcoord" in header
+    parts = _parts(data, ".ply", source, fix_texture=splits, skip_materials=True)
+    if splits and b" nx\n" in header:
+        log.warning("%s: normals are left out, as faces have texture coordinates of their own", source)
+        parts = [part._replace(normals=None) for part in parts]
+    return parts
 
 
 def _checked_stl(data: bytes) -> bytes:

@@ -180,6 +180,22 @@ def test_ply_with_quads(tmp_path: Path) -> None:
     assert len(mesh.faces) == 3
 
 
+def test_ply_with_texture_coordinates_of_faces(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """Vertices on a seam are split; normals cannot be kept then, which is said."""
+    header = "ply\nformat ascii 1.0\ncomment TextureFile lost.png\nelement vertex 4\n"
+    header += "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
+    header += "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+    text = header + rows("", np.hstack([CORNERS, NORMALS]))
+    mesh = load(tmp_path, "a.ply", text + "\n3 0 1 2 6 0 0 1 0 1 1\n\n3 0 2 3 6 0.5 0.5 1 1 0 1\n")
+    np.testing.assert_array_equal(triangles(mesh), CORNERS[[(0, 1, 2), (0, 2, 3)]])
+    assert mesh.uvs is not None
+    np.testing.assert_allclose(mesh.uvs[mesh.faces], [[(0, 0), (1, 0), (1, 1)], [(0.5, 0.5), (1, 1), (0, 1)]])
+    assert len(mesh.vertices) == 5
+    assert mesh.normals is None
+    (record,) = caplog.records
+    assert "normals are left out, as faces have texture coordinates of their own" in record.getMessage()
+
+
 GOOD_PLY = ply().decode()  # rows of vertices from line 11 on, of faces from line 15 on
 BAD_PLY: list[tuple[str | bytes, str]] = [
     (b"", ""),
