@@ -86,11 +86,12 @@ def test_obj_seams_split_vertices_only_there(tmp_path: Path) -> None:
 
 
 def test_obj_polygons_are_fans(tmp_path: Path) -> None:
-    five = rows("v", [(0, 0, 0), (2, 0, 0), (3, 1, 0), (1, 2, 0), (-1, 1, 0)])
-    mesh = load(tmp_path, "a.obj", five + "f 1 2 3 4 5\nf 1 2 3\nf 1 3 4 5")
-    assert sorted(map(sorted, mesh.faces.tolist())) == sorted(
-        [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 1, 2], [0, 2, 3], [0, 3, 4]]
-    )
+    """Of five, four and three corners."""
+    points = [(0, 0, 0), (2, 0, 0), (3, 1, 0), (1, 2, 0), (-1, 1, 0), (0, -1, 0), (2, -1, 0), (1, -3, 0)]
+    mesh = load(tmp_path, "a.obj", rows("v", points) + "f 1 2 3 4 5\nf 6 7 2 1\nf 6 8 7")
+    expected = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (5, 6, 1), (5, 1, 0), (5, 7, 6)]
+    assert {frozenset(face) for face in mesh.faces.tolist()} == {frozenset(face) for face in expected}
+    assert len(mesh.faces) == 6
 
 
 def test_obj_indices_from_the_end_count_from_where_they_stand(tmp_path: Path) -> None:
@@ -176,7 +177,7 @@ def test_ply_with_normals_and_texture_coordinates(tmp_path: Path, form: str, nam
 
 
 def test_ply_with_quads(tmp_path: Path) -> None:
-    mesh = load(tmp_path, "a.ply", ply(faces=[(0, 1, 2, 3), (0, 1, 3)]))
+    mesh = load(tmp_path, "a.ply", ply(faces=[(0, 1, 2, 3), (0, 3, 1)]))
     assert len(mesh.faces) == 3
 
 
@@ -231,9 +232,9 @@ def test_bad_ply(tmp_path: Path, data: str | bytes, words: str) -> None:
 # STL
 
 
-def ascii_stl(name: str = "a solid vertex") -> str:
+def ascii_stl(name: str = "a solid vertex", shift: float = 0) -> str:
     text = f"solid {name}\n"
-    for corners in PLAIN:
+    for corners in PLAIN + shift:
         text += f"  facet normal 0 0 1\n    outer loop\n{rows('      vertex', corners)}    endloop\n  endfacet\n"
     return text + f"endsolid {name}\n"
 
@@ -243,14 +244,19 @@ def binary_stl(header: bytes = b"solid but binary") -> bytes:
     return header.ljust(80, b" ") + struct.pack("<I", len(PLAIN)) + body
 
 
-@pytest.mark.parametrize("data", [ascii_stl(), ascii_stl().upper(), ascii_stl("") * 2, binary_stl()])
+@pytest.mark.parametrize("data", [ascii_stl(), ascii_stl().upper(), binary_stl()])
 def test_stl_shares_equal_vertices(tmp_path: Path, data: str | bytes) -> None:
     mesh = load(tmp_path, "a.stl", data)
     assert len(mesh.vertices) == 4
-    count = len(mesh.faces) // 4
-    np.testing.assert_array_equal(triangles(mesh), np.concatenate([PLAIN] * count))
+    np.testing.assert_array_equal(triangles(mesh), PLAIN)
     assert mesh.normals is None
     assert mesh.uvs is None
+
+
+def test_stl_of_several_solids_is_one_mesh(tmp_path: Path) -> None:
+    mesh = load(tmp_path, "a.stl", ascii_stl("") + ascii_stl("b", 5))
+    assert len(mesh.vertices) == 8
+    np.testing.assert_array_equal(triangles(mesh), np.concatenate([PLAIN, PLAIN + 5]))
 
 
 def test_stl_merges_nothing_but_equals(tmp_path: Path) -> None:
