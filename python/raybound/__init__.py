@@ -22,6 +22,8 @@ from .frame import Frame
 from .handles import LightHandle, Object
 from .lights import DirectionalLight, PointLight, SpotLight
 from .materials import Material, Texture
+from .mesh_file import load_mesh
+from .meshes import Mesh
 from .renderer import Renderer, TraceResult, render
 from .reporting import report
 from .scene import Scene
@@ -45,6 +47,7 @@ __all__ = [
     "Intersection",
     "LightHandle",
     "Material",
+    "Mesh",
     "Object",
     "Path",
     "PointLight",
@@ -63,6 +66,7 @@ __all__ = [
     "__version__",
     "gamma",
     "intersect",
+    "load_mesh",
     "load_scene",
     "next_float_down",
     "next_float_up",

@@ -19,6 +19,7 @@ import numpy.typing as npt
 Vector = tuple[float, float, float]
 Colour = float | Vector
 FloatArray = npt.NDArray[np.float32]
+IndexArray = npt.NDArray[np.int32]
 DoubleArray = npt.NDArray[np.float64]
 
 T = TypeVar("T")
@@ -119,6 +120,19 @@ def array(who: str, name: str, value: object, *, shape: tuple[int | None, ...], 
     if not matches:
         raise ValueError(f"{who}: {name} must be {expected}, got shape {given.shape}")
     return _round(who, name, given, copy=copy)
+
+
+def indices(who: str, name: str, value: object) -> IndexArray:
+    """Triples of indices, (m, 3): whole numbers of any dtype that fit in int32, as a C-contiguous copy."""
+    expected = "an array of whole numbers with shape (m, 3)"
+    given = numeric(who, name, value, expected)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError(f"{who}: {name} must be {expected}, got shape {given.shape}")
+    limits = np.iinfo(np.int32)
+    good = (given >= limits.min) & (given <= limits.max) & (given == np.floor(given))
+    if not good.all():
+        raise ValueError(f"{who}: {name} must be whole numbers that fit in int32, got {_culprit(given, good)}")
+    return np.array(given, np.int32, order="C")
 
 
 def vector(who: str, name: str, value: object) -> Vector:

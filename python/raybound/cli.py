@@ -48,7 +48,9 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_render(render: argparse.ArgumentParser) -> None:
-    render.add_argument("scene", metavar="SCENE", help="a .json file, museum, three_spheres, or sphereflake:LEVELS")
+    render.add_argument(
+        "scene", metavar="SCENE", help="a .json or .nff file, museum, three_spheres, or sphereflake:LEVELS"
+    )
     render.add_argument("-o", "--out", metavar="OUT", required=True, help="the image file, such as a.png or a.exr")
     render.add_argument(
         "--camera", help="a JSON object with Camera's arguments, or --camera=ex,ey,ez,tx,ty,tz (eye and target)"
@@ -75,11 +77,11 @@ def _tolerance(text: str) -> Tolerance:
 
 
 def _scene(text: str) -> Scene:
-    """A scene from a .json file or by the name of a ready one."""
+    """A scene from a .json or .nff file or by the name of a ready one."""
     name, colon, argument = text.partition(":")
     if name not in READY or Path(text).exists():
         if not Path(text).exists() and not Path(text).suffix:
-            raise ValueError(f"SCENE must be a .json file or one of {', '.join(READY)}, got {text!r}")
+            raise ValueError(f"SCENE must be a .json or .nff file or one of {', '.join(READY)}, got {text!r}")
         return load_scene(text)
     if bool(colon) != READY[name] or (colon and not argument.isdecimal()):
         raise ValueError(f"SCENE must be {name + ':LEVELS' if READY[name] else name}, got {text!r}")
@@ -148,7 +150,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         options.run(options)
-    except (ValueError, TypeError, OSError) as error:
+    except (ValueError, TypeError, OSError, ImportError) as error:
         message = " ".join(str(error).split())
         print(f"raybound {options.command}: {message}", file=sys.stderr)
         return 2

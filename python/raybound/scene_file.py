@@ -7,13 +7,16 @@
      "camera": {"eye": [x, y, z], ...} or null,
      "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat"},
                   {"texels": {"shape": [h, w, 3], "base64": "..."}}],
+     "meshes": [{"vertices": {"shape": [n, 3], "base64": "..."}, "faces": {"shape": [m, 3], "base64": "..."},
+                 "normals": null, "uvs": null}],
      "materials": [{"diffuse": [r, g, b] or number or {"texture": 0}, "specular": ...}],
      "objects": [{"name": "ball", "shape": {"type": "Sphere", ...}, "material": 0, "transform": [[4 x 4]]}],
      "lights": [{"name": "lamp", "light": {"type": "PointLight", "position": [x, y, z], ...}}]}
 
 Shapes, lights, materials, textures and cameras are objects whose keys are their constructor's arguments; those with a
 default may be left out, and so may names, transforms and every list. Numbers are written with the digits that give the
-same float32. Texels are little-endian float32, linear, top row first.
+same float32. Texels are little-endian float32, linear, top row first. A shape {"type": "Mesh", "mesh": 0} refers to the
+list of meshes, whose arrays are nested lists or little-endian float32 in base64, and int32 for faces.
 """
 
 from __future__ import annotations
@@ -26,36 +29,40 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
-from . import _validate
+from . import _validate, nff
+from ._validate import FloatArray, IndexArray
 from ._value import Value
 from .camera import Camera
 from .lights import DirectionalLight, Light, PointLight, SpotLight
 from .materials import Material, Texture
+from .meshes import Mesh
 from .scene import Scene
 from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Shape, Sphere, Transformed, Union
 from .transform import Transform
 
 FORMAT, VERSION = "raybound scene", 1
 SHAPES: dict[str, type[Shape]] = {
-    cls.__name__: cls for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Union, Intersection, Transformed)
+    cls.__name__: cls for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Mesh, Union, Intersection, Transformed)
 }
 LIGHTS: dict[str, type[Light]] = {cls.__name__: cls for cls in (DirectionalLight, PointLight, SpotLight)}
 T = TypeVar("T")
-KEYS = ("format", "version", "ambient", "background", "camera", "textures", "materials", "objects", "lights")
+KEYS = ("format", "version", "ambient", "background", "camera", "textures", "meshes", "materials", "objects", "lights")
 
 
 # Writing
 
 
 class _Writer:
-    """Numbers the materials and textures of one scene while its objects are written."""
+    """Numbers the materials, textures and meshes of one scene while its objects are written."""
 
     def __init__(self, folder: str | None) -> None:
         self.folder = folder
         self.materials: list[dict[str, Any]] = []
         self.textures: list[dict[str, Any]] = []
-        self.indices: dict[Material | Texture, int] = {}
+        self.meshes: list[dict[str, Any]] = []
+        self.indices: dict[Material | Texture | Mesh, int] = {}
 
     def value(self, value: object) -> Any:
         """A field's value as plain JSON."""
@@ -76,6 +83,11 @@ class _Writer:
         return {name: self.value(getattr(value, name)) for name in value._fields}
 
     def typed(self, value: Value) -> dict[str, Any]:
+        if isinstance(value, Mesh):
+            if value not in self.indices:
+                self.indices[value] = len(self.meshes)
+                self.meshes.append({name: _encoded(getattr(value, name)) for name in value._fields})
+            return {"type": "Mesh", "mesh": self.indices[value]}
         return {"type": type(value).__name__, **self.fields(value)}
 
     def material(self, value: Material) -> int:
@@ -88,14 +100,21 @@ class _Writer:
         source: dict[str, Any] = {"scale": _plain(value.scale), "wrap": value.wrap}
         if value._location is not None:
             return {"path": self.path(value._location), **source}
-        data = base64.b64encode(value.texels.astype("<f4").tobytes()).decode("ascii")
-        return {"texels": {"shape": list(value.texels.shape), "base64": data}, **source}
+        return {"texels": _encoded(value.texels), **source}
 
     def path(self, location: str) -> str:
         """A texture's path: relative to the file's folder if it lies in there, else absolute."""
         if self.folder is not None and Path(location).is_relative_to(self.folder):
             return Path(location).relative_to(self.folder).as_posix()
         return location
+
+
+def _encoded(array: FloatArray | IndexArray | None) -> dict[str, Any] | None:
+    """An array's shape and its little-endian float32 or int32 as base64."""
+    if array is None:
+        return None
+    data = array.astype(array.dtype.newbyteorder("<")).tobytes()
+    return {"shape": list(array.shape), "base64": base64.b64encode(data).decode("ascii")}
 
 
 def _plain(value: object) -> Any:
@@ -128,6 +147,7 @@ def to_dict(scene: Scene, folder: str | None = None) -> dict[str, Any]:
         "background": _plain(records.background),
         "camera": None if records.camera is None else writer.fields(records.camera),
         "textures": writer.textures,
+        "meshes": writer.meshes,
         "materials": writer.materials,
         "objects": objects,
         "lights": [{"name": r.name, "light": writer.typed(r.light)} for r in records.lights.values()],
@@ -137,28 +157,36 @@ def to_dict(scene: Scene, folder: str | None = None) -> dict[str, Any]:
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     """Writes a .json file. ValueError for another extension, FileNotFoundError if the folder is missing."""
     target = _validate.file_path("Scene.save", "path", path)
-    _check_extension("Scene.save", target)
+    if Path(target).suffix.lower() != ".json":
+        raise ValueError(f"Scene.save: path must end in .json, got {target!r}")
     text = json.dumps(to_dict(scene, str(Path(target).absolute().parent)), indent=1, allow_nan=False)
     Path(target).write_text(text + "\n", encoding="utf-8")
-
-
-def _check_extension(who: str, path: str) -> None:
-    if Path(path).suffix.lower() != ".json":
-        raise ValueError(f"{who}: path must end in .json, got {path!r}")
 
 
 # Reading
 
 
 def load_scene(path: str | os.PathLike[str]) -> Scene:
-    """Reads a scene with its camera from a .json file.
+    """Reads a scene with its camera from a .json file (ours) or an .nff file (the Neutral File Format).
+
+    What NFF leaves open is decided as the Standard Procedural Databases suggest: `angle` is the vertical field of view;
+    each of n lights has the intensity sqrt(n) / (2 n), times its colour if it has one, without falloff, and ambient
+    light the same; Phong's highlight becomes the Ward lobe of equal peak and width, sigma = 1 / sqrt(2 Shine). Cones
+    and cylinders, which have no caps in NFF, are solids here. Each primitive is one object without a name, in the
+    file's order; polygons that are not convex and planar become meshes of triangles, which takes the extra
+    `raybound[mesh]`.
 
     Raises FileNotFoundError if the file (or a texture's) is missing, ValueError for an unknown extension, for text that
-    is not JSON, and for unknown, missing or wrong entries, naming them.
+    is not JSON or NFF, and for unknown, missing or wrong entries, naming them (and the line, for NFF), ImportError if
+    the extra is needed and missing.
     """
     source = _validate.file_path("load_scene", "path", path)
-    _check_extension("load_scene", source)
+    suffix = Path(source).suffix.lower()
+    if suffix not in (".json", ".nff"):
+        raise ValueError(f"load_scene: path must end in .json or .nff, got {source!r}")
     data = Path(source).read_bytes()
+    if suffix == ".nff":
+        return nff.parse(data, source)
     try:
         d = json.loads(data)
     except ValueError as error:  # JSONDecodeError or UnicodeDecodeError
@@ -176,6 +204,7 @@ def from_dict(d: Mapping[str, Any], folder: str | None = None, who: str = "Scene
     if d.get("camera") is not None:
         scene.camera = camera_from_dict(d["camera"], f"{who}: camera")
     textures = [_texture(item, folder, at) for at, item in _items(who, d, "textures")]
+    meshes = [_mesh(item, at) for at, item in _items(who, d, "meshes")]
     materials = [_material(item, textures, at) for at, item in _items(who, d, "materials")]
     with scene.edit():
         for at, item in _items(who, d, "objects"):
@@ -183,7 +212,8 @@ def from_dict(d: Mapping[str, Any], folder: str | None = None, who: str = "Scene
             material = _pick(f"{at}.material", item["material"], materials)
             matrix = item.get("transform")
             by = None if matrix is None else _make(at, Transform, matrix)
-            _make(at, scene.add, _shape(item["shape"], f"{at}.shape"), material, name=item.get("name"), transform=by)
+            shape = _shape(item["shape"], meshes, f"{at}.shape")
+            _make(at, scene.add, shape, material, name=item.get("name"), transform=by)
         for at, item in _items(who, d, "lights"):
             _check_keys(at, item, ("name", "light"), required=("light",))
             _make(at, scene.add_light, _light(item["light"], f"{at}.light"), name=item.get("name"))
@@ -243,14 +273,18 @@ def _class(who: str, d: object, classes: dict[str, type[Any]]) -> type[Any]:
     return classes[kind]
 
 
-def _shape(d: object, who: str) -> Shape:
+def _shape(d: object, meshes: list[Mesh], who: str) -> Shape:
     cls = _class(who, d, SHAPES)
+    if cls is Mesh:
+        found = _check_keys(who, d, ("type", "mesh"), ("mesh",))
+        picked: Shape = _pick(f"{who}.mesh", found["mesh"], meshes)
+        return picked
     arguments = _arguments(who, d, cls, ("type",))
     if cls in (Union, Intersection):
-        combined: Shape = _make(who, cls, *(_shape(part, at) for at, part in _items(who, arguments, "shapes")))
+        combined: Shape = _make(who, cls, *(_shape(part, meshes, at) for at, part in _items(who, arguments, "shapes")))
         return combined
     if cls is Transformed:
-        arguments["shape"] = _shape(arguments["shape"], f"{who}.shape")
+        arguments["shape"] = _shape(arguments["shape"], meshes, f"{who}.shape")
         arguments["transform"] = _make(who, Transform, arguments["transform"])
     made: Shape = _make(who, cls, **arguments)
     return made
@@ -277,18 +311,28 @@ def _texture(d: object, folder: str | None, who: str) -> Texture:
         raise ValueError(f"{who} must have one of the keys 'path' and 'texels'")
     rest = {key: found[key] for key in ("scale", "wrap") if key in found}
     if "texels" in found:
-        return _make(who, Texture, _texels(found["texels"], f"{who}.texels"), **rest)
+        return _make(who, Texture, _decoded(found["texels"], "<f4", f"{who}.texels", "texels"), **rest)
     path = _validate.file_path(who, "path", found["path"])
     return _make(who, Texture, path if folder is None else str(Path(folder, path)), **rest)
 
 
-def _texels(d: object, who: str) -> np.ndarray[Any, np.dtype[np.float32]]:
+def _mesh(d: object, who: str) -> Mesh:
+    arguments = _arguments(who, d, Mesh)
+    for name, value in arguments.items():
+        if isinstance(value, Mapping):
+            arguments[name] = _decoded(value, "<i4" if name == "faces" else "<f4", f"{who}.{name}", "numbers")
+    return _make(who, Mesh, **arguments)
+
+
+def _decoded(d: object, dtype: str, who: str, what: str) -> npt.NDArray[Any]:
+    """The array that `_encoded` wrote."""
     found = _check_keys(who, d, ("shape", "base64"), ("shape", "base64"))
     try:
-        data = np.frombuffer(base64.b64decode(found["base64"], validate=True), "<f4")
-        return data.reshape(found["shape"]).astype(np.float32)
+        data = np.frombuffer(base64.b64decode(found["base64"], validate=True), dtype)
+        return data.reshape(found["shape"]).astype(data.dtype.newbyteorder("="))
     except (ValueError, TypeError) as error:
-        raise ValueError(f"{who} must be float32 texels of that shape in base64: {error}") from None
+        kind = "float32" if dtype == "<f4" else "int32"
+        raise ValueError(f"{who} must be {kind} {what} of that shape in base64: {error}") from None
 
 
 def _pick(who: str, index: object, items: list[Any]) -> Any:

@@ -74,7 +74,10 @@ BAD = [
     (["render", "ball.json", "-o", "a.xyz"], "--out: path must end in the extension of an image format, got 'a.xyz'"),
     (["render", "ball.json", "-o", "none/a.png"], "--out: no such folder: 'none'"),
     (["render", "none.json", "-o", "a.png"], "none.json"),
-    (["render", "none", "-o", "a.png"], "SCENE must be a .json file or one of museum, three_spheres, sphereflake"),
+    (
+        ["render", "none", "-o", "a.png"],
+        "SCENE must be a .json or .nff file or one of museum, three_spheres, sphereflake",
+    ),
     (["render", "bad.json", "-o", "a.png"], "'bad.json' is not JSON: Expecting"),
     (["render", "empty.json", "-o", "a.png"], "empty.json has no camera; give one with --camera"),
     (["render", "sphereflake", "-o", "a.png"], "SCENE must be sphereflake:LEVELS, got 'sphereflake'"),

@@ -206,7 +206,7 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
         rb.load_scene(tmp_path / "latin.json")
     with pytest.raises(FileNotFoundError, match=r"none\.json"):
         rb.load_scene(tmp_path / "none.json")
-    with pytest.raises(ValueError, match=r"load_scene: path must end in \.json, got 'a\.obj'"):
+    with pytest.raises(ValueError, match=r"load_scene: path must end in \.json or \.nff, got 'a\.obj'"):
         rb.load_scene("a.obj")
     with pytest.raises(TypeError, match="load_scene: path must be a path"):
         rb.load_scene(None)
