@@ -1,5 +1,8 @@
+#include <optional>
+
 #include "bindings/arrays.h"
 #include "raybound/frame/query.h"
+#include "raybound/shapes/mesh.h"
 
 namespace raybound::python {
 
@@ -35,6 +38,27 @@ py::array_t<ShapeHitRecord> intersect(const ShapePointer& shape, const Doubles& 
     return from_vector(records);
 }
 
+using Indices = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+template <class Item, class Array>
+std::vector<Item> rows(const Array& a, py::ssize_t columns, const char* name) {
+    if (a.ndim() != 2 || a.shape(1) != columns)
+        throw std::invalid_argument(std::string("Mesh: ") + name + " must have shape (n, " + std::to_string(columns) +
+                                    ")");
+    const auto* first = reinterpret_cast<const Item*>(a.data());
+    return {first, first + a.shape(0)};
+}
+
+ShapePointer mesh(const Floats& vertices, const Indices& faces, const std::optional<Floats>& normals,
+                  const std::optional<Floats>& uvs) {
+    auto v = rows<Vec3f>(vertices, 3, "vertices");
+    auto f = rows<Face>(faces, 3, "faces");
+    auto n = normals ? rows<Vec3f>(*normals, 3, "normals") : std::vector<Vec3f>{};
+    auto t = uvs ? rows<UV<float>>(*uvs, 2, "uvs") : std::vector<UV<float>>{};
+    const py::gil_scoped_release released;
+    return Shape::triangle_mesh(MeshData::make(std::move(v), std::move(f), std::move(n), std::move(t)));
+}
+
 }  // namespace
 
 void register_shapes(py::module_& m) {
@@ -49,6 +73,12 @@ void register_shapes(py::module_& m) {
     const auto result = [](ShapePointer p) {
         return std::const_pointer_cast<Shape>(p);
     };  // pybind11 holds no pointers to const
+    m.def(
+        "mesh",
+        [=](const Floats& v, const Indices& f, const std::optional<Floats>& n, const std::optional<Floats>& t) {
+            return result(mesh(v, f, n, t));
+        },
+        "vertices"_a, "faces"_a, "normals"_a, "uvs"_a);
     m.def(
         "sphere",
         [=](const Floats& center, float radius) { return result(Shape::sphere(to_vec3<float>(center), radius)); },

@@ -38,7 +38,7 @@ void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>&
     record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
     store(at.point, record.point);
     store(at.point_error, record.point_error);
-    store(at.normal, record.normal);
+    store(at.shading, record.normal);
     record.uv[0] = at.uv.u;
     record.uv[1] = at.uv.v;
     record.object_id = scene.objects()[scene.geometry().primitives[nearest.primitive].object].id;
@@ -64,7 +64,7 @@ void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossin
     const Vec3<T> p = bounded ? at.point : ray.origin + ray.direction * T(crossing.t);
     store(p, record.point);
     store(at.point_error, record.point_error);
-    store(at.normal, record.normal);
+    store(at.shading, record.normal);
     record.uv[0] = double(at.uv.u);
     record.uv[1] = double(at.uv.v);
     record.face_id = crossing.face_offset + crossing.face;

@@ -152,7 +152,8 @@ class Builder {
     // What a set of items costs: the leaves it needs times the area of its box (a full leaf costs what a node costs).
     float cost(const Bin& bin) const {
         int leaves = 0;
-        for (std::size_t k = 0; k < most_classes; ++k) leaves += (bin.census.count[k] + capacity_[k] - 1) / capacity_[k];
+        for (std::size_t k = 0; k < most_classes; ++k)
+            leaves += (bin.census.count[k] + capacity_[k] - 1) / capacity_[k];
         return float(leaves) * bin.bounds.half_area();
     }
 
@@ -205,8 +206,8 @@ class Builder {
         Plane best;
         for (int axis = 0; axis < 3; ++axis)
             if (scale[axis] > 0)
-                consider_planes(bins[std::size_t(axis)],
-                                {infinity<float>, axis, 0, centers.lower[axis], scale[axis]}, best);
+                consider_planes(bins[std::size_t(axis)], {infinity<float>, axis, 0, centers.lower[axis], scale[axis]},
+                                best);
         if (best.axis < 0) return range.begin;
         return partition(range, [&](const Item& item) {
             return bin_of(item.center(best.axis), best.lower, best.scale) <= best.bin;

@@ -47,6 +47,10 @@ inline Mat3<T> inverse(const Mat3<T>& m) {
     const T scale = T(1) / determinant(m);
     return {cross(b, c) * scale, cross(c, a) * scale, cross(a, b) * scale};
 }
+template <class T>
+inline Mat3<T> absolute(const Mat3<T>& m) {
+    return {absolute(m.row[0]), absolute(m.row[1]), absolute(m.row[2])};
+}
 // The largest row sum of absolute values, an upper bound of how far a component can grow.
 template <class T>
 inline T norm_infinity(const Mat3<T>& m) {

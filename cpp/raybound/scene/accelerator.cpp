@@ -6,7 +6,6 @@ namespace raybound {
 
 namespace {
 
-
 void fill(SpherePack& pack, std::uint32_t lane, const Leaf& leaf) {
     for (int axis = 0; axis < 3; ++axis) pack.center[axis][lane] = float(leaf.first[axis]);
     pack.radius[lane] = float(leaf.radius);

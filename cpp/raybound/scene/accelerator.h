@@ -73,8 +73,8 @@ class Accelerator {
 };
 
 template <class T, class Visit>
-bool Accelerator::visit_leaf(const Geometry& geometry, std::uint32_t leaf, T near, SearchRay<T>& ray,
-                             const T& t_max, const Visit& visit) const {
+bool Accelerator::visit_leaf(const Geometry& geometry, std::uint32_t leaf, T near, SearchRay<T>& ray, const T& t_max,
+                             const Visit& visit) const {
     const std::uint32_t index = leaf & index_mask;
     const auto kind = Kind(leaf >> kind_shift);
     if (kind == Kind::single) return visit(index, near, false);
@@ -99,17 +99,15 @@ bool Accelerator::visit_leaf(const Geometry& geometry, std::uint32_t leaf, T nea
 template <class T, class Visit>
 void Accelerator::traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max, const Visit& visit) const {
     SearchRay<T> search(ray);
-    bvh_.traverse(search.slabs, t_max, [&](std::uint32_t leaf, T near) {
-        visit_leaf(geometry, leaf, near, search, t_max, visit);
-    });
+    bvh_.traverse(search.slabs, t_max,
+                  [&](std::uint32_t leaf, T near) { visit_leaf(geometry, leaf, near, search, t_max, visit); });
 }
 
 template <class T, class Visit>
 bool Accelerator::any(const Geometry& geometry, const Ray<T>& ray, T t_max, const Visit& visit) const {
     SearchRay<T> search(ray);
-    return bvh_.any(search.slabs, t_max, [&](std::uint32_t leaf, T near) {
-        return visit_leaf(geometry, leaf, near, search, t_max, visit);
-    });
+    return bvh_.any(search.slabs, t_max,
+                    [&](std::uint32_t leaf, T near) { return visit_leaf(geometry, leaf, near, search, t_max, visit); });
 }
 
 }  // namespace raybound

@@ -1,5 +1,5 @@
 // Bounds and frames of the primitives.
-#include "raybound/shapes/shape.h"
+#include "raybound/shapes/mesh.h"
 
 namespace raybound {
 
@@ -85,6 +85,9 @@ Boxd shape_bounds(const Shape& shape, const Affine& placement) {
     switch (shape.kind()) {
         case ShapeKind::polygon:
             for (const Vec3f& v : shape.vertices()) box.extend(placement.point(Vec3d(v)));
+            return box;
+        case ShapeKind::mesh:
+            for (const Vec3f& v : shape.mesh()->vertices()) box.extend(placement.point(Vec3d(v)));
             return box;
         case ShapeKind::transformed:
             return shape_bounds(*shape.parts()[0], placement * shape.transform());

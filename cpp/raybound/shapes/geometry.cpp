@@ -23,18 +23,19 @@ float placement_error(const Affine& placement, const Vec3d& p) {
 }
 
 LeafKind leaf_kind(ShapeKind kind) { return static_cast<LeafKind>(kind); }
-static_assert(static_cast<int>(LeafKind::polygon) == static_cast<int>(ShapeKind::polygon));
+static_assert(static_cast<int>(LeafKind::mesh) == static_cast<int>(ShapeKind::mesh));
 
-Mat3<double> absolute(const Mat3<double>& m) { return {absolute(m.row[0]), absolute(m.row[1]), absolute(m.row[2])}; }
-
-// A' = R B^-1 with B the map from unit coordinates to the world, R the power of two at its mean column length.
-Frame make_frame(const Affine& unit, double top_ratio) {
+// R, the power of two at the mean column length of the map from unit coordinates to the world.
+double frame_radius(const Affine& unit) {
     const Vec3d c0 = unit.linear.column(0), c1 = unit.linear.column(1), c2 = unit.linear.column(2);
-    const double mean = std::cbrt(length(c0)) * std::cbrt(length(c1)) * std::cbrt(length(c2));
     const double least = minimum(minimum(length(c0), length(c1)), length(c2));
     if (!(least >= 0.5 * double(least_size)))
         throw std::invalid_argument("Shape: transforms must keep sizes at least 2**-60, got " + format(least));
-    const double radius = power_of_two_below(mean);
+    return power_of_two_below(std::cbrt(length(c0)) * std::cbrt(length(c1)) * std::cbrt(length(c2)));
+}
+
+// A' = R B^-1 with B the map from unit coordinates to the world.
+Frame make_frame(const Affine& unit, double radius, double top_ratio) {
     Frame frame;
     const Mat3<double> inverted = inverse(unit.linear);
     for (int i = 0; i < 3; ++i) frame.linear_wide.row[i] = inverted.row[i] * radius;
@@ -110,6 +111,21 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
     geometry.polygons.push_back(plane);
 }
 
+// A mesh keeps its own coordinates: R = 1. Its reach stands for the unit shape's.
+void place_mesh(Geometry& geometry, Leaf& leaf, const Shape& shape, const Affine& placement) {
+    leaf.polygon = std::uint32_t(geometry.meshes.size());
+    geometry.meshes.push_back({shape.mesh().get(), placement});
+    if (placement.is_identity()) return;
+    const Frame frame = make_frame(placement, 1, 1);
+    const double extent = max_component(Vec3d(shape.mesh()->bounds().extent()));
+    if (!(extent / norm_infinity(frame.linear_wide) >= double(least_size)))
+        throw std::invalid_argument("Mesh: transforms must keep sizes at least 2**-60");
+    const double moved = double(frame_surface_error(frame, {placement.linear, {}})) * double(shape.mesh()->reach());
+    leaf.surface_error = next_float_up(float(moved + 0x1p-50 * norm1(placement.offset)));
+    leaf.frame = std::int32_t(geometry.frames.size());
+    geometry.frames.push_back(frame);
+}
+
 // Spheres under a similarity without rotation, and boxes under translation and scaling, need no frame.
 bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
     const bool sphere = shape.kind() == ShapeKind::sphere && is_scaled_identity(placement.linear);
@@ -136,10 +152,12 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
     leaf.kind = leaf_kind(shape.kind());
     if (shape.kind() == ShapeKind::polygon) {
         place_polygon(geometry, leaf, shape, placement);
+    } else if (shape.kind() == ShapeKind::mesh) {
+        place_mesh(geometry, leaf, shape, placement);
     } else if (!place_in_world(leaf, shape, placement)) {
         const Affine unit = placement * unit_frame(shape);
         const double top = shape.kind() == ShapeKind::cone ? double(shape.top_radius()) / double(shape.radius()) : 1;
-        const Frame frame = make_frame(unit, top);
+        const Frame frame = make_frame(unit, frame_radius(unit), top);
         if (frame.slope == 0 && leaf.kind == LeafKind::cone) leaf.kind = LeafKind::cylinder;
         leaf.surface_error = frame_surface_error(frame, unit);
         leaf.frame = std::int32_t(geometry.frames.size());
@@ -192,8 +210,9 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
 
 std::size_t Geometry::bytes() const {
     return primitives.size() * sizeof(Primitive) + leaves.size() * sizeof(Leaf) + frames.size() * sizeof(Frame) +
-           polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3f) +
-           csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
+           polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3d) +
+           meshes.size() * sizeof(MeshInstance) + csg_nodes.size() * sizeof(CsgNode) +
+           csg_children.size() * sizeof(std::uint32_t);
 }
 
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {

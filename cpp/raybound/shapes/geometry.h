@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "raybound/shapes/mesh.h"
 #include "raybound/shapes/polygon.h"
-#include "raybound/shapes/shape.h"
 
 namespace raybound {
 
-enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon };
+enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon, mesh };
 
 // The map y = A (x - center) from the world to a leaf's own coordinates, in which the shape has the size R, a power of
 // two near its size in the world. The *double* map is the truth; the float one approximates it within the errors that
@@ -32,10 +32,16 @@ struct Frame {
 struct Leaf {
     LeafKind kind = LeafKind::sphere;
     std::int32_t frame = -1;
-    std::uint32_t polygon = 0;
+    std::uint32_t polygon = 0;  // or mesh
     float surface_error = 0;
     Vec3d first, second;
     double radius = 0;
+};
+
+// A mesh in its place; the data are the shape's.
+struct MeshInstance {
+    const MeshData* data;
+    Affine placement;
 };
 
 enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection };
@@ -62,6 +68,7 @@ struct Geometry {
     std::vector<Frame> frames;
     std::vector<PolygonPlane> polygons;
     std::vector<Vec3d> vertices;
+    std::vector<MeshInstance> meshes;
     std::vector<CsgNode> csg_nodes;
     std::vector<std::uint32_t> csg_children;
 

@@ -1,6 +1,7 @@
 #include "raybound/shapes/intersect.h"
 
 #include "raybound/shapes/csg.h"
+#include "raybound/shapes/mesh_hit.h"
 
 namespace raybound {
 
@@ -95,20 +96,24 @@ T round_up(Wide<T> x) {
 
 template <class T>
 Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                 bool filtered) {
+                                 const Asking<T>& asking) {
     if (primitive.is_csg) return cross_csg(geometry, primitive.root, ray.wide);
+    if (geometry.leaves[primitive.root].kind == LeafKind::mesh)
+        return cross_mesh<T>(geometry, primitive.root, ray.wide, asking.t_max, asking.brute_force);
     if constexpr (!std::is_same_v<T, Wide<T>>)
-        if (!filtered && none(may_cross(geometry, geometry.leaves[primitive.root], ray.narrow)))
+        if (!asking.filtered && none(may_cross(geometry, geometry.leaves[primitive.root], ray.narrow)))
             return {infinity<Wide<T>>, 0, 0, 0, false};
     return cross_leaf(geometry, primitive.root, ray.wide);
 }
 
 template <class T>
-Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, bool filtered) {
+Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, const Asking<T>& asking) {
     using W = Wide<T>;
-    const Crossing<W> crossing = first_crossing(geometry, primitive, ray, filtered);
-    if (none(crossing.hit) || !ray.wide.has_target) return crossing.hit;
     const W end = ray.wide.t_max * (W(1) - gamma<W>(8));
+    if (!primitive.is_csg && geometry.leaves[primitive.root].kind == LeafKind::mesh)
+        return mesh_blocks<T>(geometry, primitive.root, ray.wide, end, asking.brute_force);
+    const Crossing<W> crossing = first_crossing(geometry, primitive, ray, asking);
+    if (none(crossing.hit) || !ray.wide.has_target) return crossing.hit;
     if (!(crossing.t < end)) return Mask<T>(false);
     return crossing.t + boundary_error(geometry, geometry.leaves[crossing.leaf], crossing.face, crossing.t, ray.wide) <
            end;
@@ -126,11 +131,36 @@ T crossing_error(const Geometry& geometry, const Crossing<Wide<T>>& crossing, co
                        boundary_error(geometry, leaf, crossing.face, crossing.t, ray));
 }
 
+// Eight bounds instead of one, so that a ray sent back through the surface certainly has it ahead (D3, D8); and 2^-20
+// of everything, so that the float normal may stand for the true one.
+template <class T>
+SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
+                                   bool with_t_error) {
+    using W = Wide<T>;
+    const Leaf& leaf = geometry.leaves[crossing.leaf];
+    const BarycentricHit<W> at = barycentric_hit(geometry, leaf, crossing.face, ray);
+    SurfacePoint<T> hit;
+    hit.t = T(crossing.t);
+    hit.point = Vec3<T>(at.point);
+    for (int i = 0; i < 3; ++i) {
+        const W rounding = abs(W(hit.point[i]) - at.point[i]);
+        hit.point_error[i] = round_up<T>((W(8) * at.error[i] + rounding) * (W(1) + W(0x1p-20)));
+    }
+    hit.normal = Vec3<T>(at.normal);
+    hit.shading = Vec3<T>(at.shading);
+    hit.uv = {T(at.uv.u), T(at.uv.v)};
+    hit.entering = !(dot(ray.direction, at.normal) > W(0));
+    const Surface<W> surface = leaf_surface(geometry, leaf, crossing.face, at.point, ray.direction);
+    hit.t_error = with_t_error ? crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal) : T(0);
+    return hit;
+}
+
 template <class T>
 SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
                               bool with_t_error) {
     using W = Wide<T>;
     const Leaf& leaf = geometry.leaves[crossing.leaf];
+    if (leaf.kind == LeafKind::mesh) return mesh_surface_point<T>(geometry, crossing, ray, with_t_error);
     const Polished<W> polished =
         polish(geometry, leaf, crossing.face, ray.origin + ray.direction * crossing.t, ray.direction);
     const Vec3<W>& exact = polished.point;
@@ -144,7 +174,7 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
     hit.point = Vec3<T>(exact);
     const Vec3<W> rounding = absolute(Vec3<W>(hit.point) - exact);
     for (int i = 0; i < 3; ++i) hit.point_error[i] = round_up<T>(distance * abs(normal[i]) + rounding[i]);
-    hit.normal = Vec3<T>(normal);
+    hit.normal = hit.shading = Vec3<T>(normal);
     hit.entering = !(dot(ray.direction, normal) > W(0));
     hit.uv = leaf_uv(geometry, leaf, crossing.face, hit.point);
     return hit;
@@ -153,14 +183,17 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
     if (primitive.is_csg) return false;
     const LeafKind kind = geometry.leaves[primitive.root].kind;
+    if (kind == LeafKind::mesh) return false;
     return outward || kind == LeafKind::disk || kind == LeafKind::polygon;
 }
 
 // The number types that rays are traced with today. (float filters and shades, double decides.)
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&, bool);
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&, bool);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, bool);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, bool);
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&,
+                                         const Asking<float>&);
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&,
+                                         const Asking<double>&);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&);
 template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, bool);
 template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, bool);
 

@@ -27,22 +27,31 @@ struct Crossing {
     Mask<T> hit;
 };
 
-// `filtered`: the filter in T has been asked already.
+// What a search knows before it asks about a primitive.
+template <class T>
+struct Asking {
+    bool filtered = false;     // the filter in T has been asked already
+    bool brute_force = false;  // look at every face of a mesh
+    T t_max = infinity<T>;     // nothing beyond is of interest
+};
+
 template <class T>
 Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                 bool filtered = false);
+                                 const Asking<T>& asking = {});
 
 // Does the primitive block the ray, certainly after its origin and certainly before its target, if it has one?
 template <class T>
-Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, bool filtered = false);
+Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
+               const Asking<T>& asking = {});
 
 // A hit with its error bounds. `entering`: the ray comes from outside, against the outward normal (asked in the wide
 // type: at a silhouette the rounded normal may say otherwise). The box point +- point_error holds a point of the
-// surface; t +- t_error holds the ray's crossing of it (derivation D3). `normal` is the outward unit normal.
+// surface; t +- t_error holds the ray's crossing of it (derivation D3). `normal` is the outward unit normal, along
+// which origins are moved; `shading` is the same, or interpolated between the vertices of a mesh, on the same side.
 template <class T>
 struct SurfacePoint {
     T t, t_error;
-    Vec3<T> point, point_error, normal;
+    Vec3<T> point, point_error, normal, shading;
     UV<T> uv;
     bool entering;
 };

@@ -131,6 +131,27 @@ inline Surface<T> framed_surface(const Leaf& leaf, const Frame& frame, int face,
     }
 }
 
+// The plane of a mesh's face: F(y) = n . (y - a), with n = (b - a) x (c - a).
+template <class T>
+inline Surface<T> face_surface(const Corners<T>& corners, const Vec3<T>& y, const Vec3<T>& error) {
+    const Vec3<T> ab = corners.b - corners.a, ac = corners.c - corners.a, r = y - corners.a;
+    const Vec3<T> normal = cross(ab, ac), p = absolute(ab), q = absolute(ac);
+    const Vec3<T> size{p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};  // of n's products
+    const T band = gamma<T>(10) * dot(size, absolute(r)) + dot(absolute(normal), error);
+    return {{dot(normal, r), band}, normal, T(0)};
+}
+
+template <class T>
+inline Surface<T> mesh_surface(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<T>& p) {
+    const Corners<T> corners = geometry.meshes[leaf.polygon].data->template corners<T>(face);
+    if (leaf.frame < 0) return face_surface(corners, p, {});
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    const LocalPoint<T> local = to_local(frame, p);
+    Surface<T> surface = face_surface(corners, local.y, local.error);
+    surface.gradient = transpose_times(frame_linear<T>(frame), surface.gradient);
+    return surface;
+}
+
 // The surface function of a face at a world point; its gradient comes back in world coordinates.
 template <class T>
 inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<T>& p,
@@ -139,6 +160,7 @@ inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int f
         const PolygonPlane& plane = geometry.polygons[leaf.polygon];
         return polygon_surface(plane, Vec3<T>(geometry.vertices[plane.first_vertex]), p);
     }
+    if (leaf.kind == LeafKind::mesh) return mesh_surface(geometry, leaf, face, p);
     if (leaf.frame >= 0) {
         const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
         const Mat3<T>& linear = frame_linear<T>(frame);

@@ -44,7 +44,8 @@ template <class T>
 inline std::uint32_t may_cross(const SpherePack& pack, const Vec3<T>& origin, const Vec3<T>& direction) {
     using P = Pack<T>;
     const Vec3<P> center{P::load(pack.center[0]), P::load(pack.center[1]), P::load(pack.center[2])};
-    const Quadratic<P> q = sphere_quadratic(sphere_ray(center, broadcast(origin), broadcast(direction)), P::load(pack.radius));
+    const Quadratic<P> q =
+        sphere_quadratic(sphere_ray(center, broadcast(origin), broadcast(direction)), P::load(pack.radius));
     return bits(!certainly_missed(q)) & pack.lanes;
 }
 
@@ -60,8 +61,7 @@ inline std::uint32_t may_cross(const TrianglePack& pack, const TrianglePackRay<T
     using P = Pack<T>;
     const Shear<T>& s = ray.scalar_shear;
     const Corners<P> corners{load_corner(pack, 0, s), load_corner(pack, 1, s), load_corner(pack, 2, s)};
-    const EdgeFunctions<P> edges =
-        edge_functions(corners, ray.origin, P(ray.origin_error + T(pack.error)), ray.shear);
+    const EdgeFunctions<P> edges = edge_functions(corners, ray.origin, P(ray.origin_error + T(pack.error)), ray.shear);
     const T reach = t_max * abs(s.dz) * (T(1) + gamma<T>(8));
     return bits(may_pierce(edges, ray.shear, P(reach))) & pack.lanes;
 }

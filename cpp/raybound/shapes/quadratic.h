@@ -44,7 +44,7 @@ inline RootSigns<T> root_signs(const Quadratic<T>& q) {
 #else
     const Mask<T> low = (product > q.c.band) & rising;
 #endif
-    return {q.discriminant.value >= T(0), low, (product < -q.c.band) | rising};
+    return {q.discriminant.value >= T(0), low, Mask<T>((product < -q.c.band) | rising)};
 }
 
 template <class T>

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "raybound/shapes/mesh.h"
 #include "raybound/shapes/polygon.h"
 
 namespace raybound {
@@ -166,13 +167,19 @@ ShapePointer Shape::polygon(std::vector<Vec3f> vertices) {
     return ShapePointer(shape);
 }
 
+ShapePointer Shape::triangle_mesh(MeshPointer mesh) {
+    auto* shape = new Shape(ShapeKind::mesh);
+    shape->mesh_ = std::move(mesh);
+    return ShapePointer(shape);
+}
+
 ShapePointer Shape::combine(ShapeKind operation, std::vector<ShapePointer> parts) {
     const bool is_union = operation == ShapeKind::csg_union;
     const std::string name = is_union ? "Union" : "Intersection";
     if (parts.empty()) refuse(name + ": needs at least one solid");
     for (std::size_t i = 0; i < parts.size(); ++i)
         if (!parts[i]->is_solid())
-            refuse(name + ": argument " + std::to_string(i) + " must be a solid, a disk or polygon encloses nothing");
+            refuse(name + ": argument " + std::to_string(i) + " must be a solid, a disk, polygon or mesh is none");
     auto* shape = new Shape(operation);
     shape->parts_ = std::move(parts);
     ShapePointer pointer(shape);
@@ -190,7 +197,7 @@ ShapePointer Shape::transformed(ShapePointer inner, const Affine& transform) {
 
 bool Shape::is_solid() const {
     if (kind_ == ShapeKind::transformed) return parts_[0]->is_solid();
-    return kind_ != ShapeKind::disk && kind_ != ShapeKind::polygon;
+    return kind_ != ShapeKind::disk && kind_ != ShapeKind::polygon && kind_ != ShapeKind::mesh;
 }
 
 int Shape::face_count() const {
@@ -204,6 +211,8 @@ int Shape::face_count() const {
         case ShapeKind::disk:
         case ShapeKind::polygon:
             return 1;
+        case ShapeKind::mesh:
+            return int(mesh_->faces().size());
         default:
             break;
     }

@@ -17,12 +17,15 @@ enum class ShapeKind : std::uint8_t {
     cone,
     disk,
     polygon,
+    mesh,
     csg_union,
     csg_intersection,
     transformed
 };
 
 class Shape;
+class MeshData;
+using MeshPointer = std::shared_ptr<const MeshData>;
 using ShapePointer = std::shared_ptr<const Shape>;
 
 // One node of a description: a primitive, a CSG operation, or a transform of another shape. Inputs are floats.
@@ -34,6 +37,7 @@ class Shape {
     static ShapePointer cone(const Vec3f& base, const Vec3f& apex, float radius, float top_radius);
     static ShapePointer disk(const Vec3f& center, const Vec3f& normal, float radius);
     static ShapePointer polygon(std::vector<Vec3f> vertices);
+    static ShapePointer triangle_mesh(MeshPointer mesh);
     static ShapePointer combine(ShapeKind operation, std::vector<ShapePointer> parts);
     static ShapePointer transformed(ShapePointer shape, const Affine& transform);
 
@@ -43,6 +47,7 @@ class Shape {
     float radius() const { return radius_; }
     float top_radius() const { return top_radius_; }
     const std::vector<Vec3f>& vertices() const { return vertices_; }
+    const MeshPointer& mesh() const { return mesh_; }
     const std::vector<ShapePointer>& parts() const { return parts_; }
     const Affine& transform() const { return transform_; }
 
@@ -57,6 +62,7 @@ class Shape {
     Vec3f first_, second_;
     float radius_ = 0, top_radius_ = 0;
     std::vector<Vec3f> vertices_;
+    MeshPointer mesh_;
     std::vector<ShapePointer> parts_;
     Affine transform_;
 };

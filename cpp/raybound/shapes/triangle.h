@@ -37,22 +37,25 @@ inline T largest_of(const ShearedPoint<T>& a, const ShearedPoint<T>& b, const Sh
     return maximum(x, y);
 }
 
-// Corners and origin come permuted (Shear). `origin_error` bounds how far each component of the origin, or of a corner, is off. The direction may have been
-// rounded once in each component. With m the largest component of a corner seen from the origin, its difference is
-// off by e + m u, the shear's factor (at most 1) by 3u, and so a sheared coordinate by less than 2e + 11 m u.
+// Corners and origin come permuted (Shear). `origin_error` bounds how far each component of the origin, or of a corner,
+// is off. The direction may have been rounded once in each component. With m the largest component of a corner seen
+// from the origin, its difference is off by e + m u, the shear's factor (at most 1) by 3u, and so a sheared coordinate
+// by less than 2e + 11 m u.
 template <class T>
 inline EdgeFunctions<T> edge_functions(const Corners<T>& corners, const Vec3<T>& origin, T origin_error,
                                        const Shear<T>& shear) {
     const Vec3<T> pa = corners.a - origin, pb = corners.b - origin, pc = corners.c - origin;
     const ShearedPoint<T> a{shear.x(pa), shear.y(pa), pa.z}, b{shear.x(pb), shear.y(pb), pb.z},
         c{shear.x(pc), shear.y(pc), pc.z};
-    const T reach = maximum(max_component(absolute(pa)), maximum(max_component(absolute(pb)), max_component(absolute(pc))));
+    const T reach =
+        maximum(max_component(absolute(pa)), maximum(max_component(absolute(pb)), max_component(absolute(pc))));
     const T off = gamma<T>(16) * reach + T(2.125f) * origin_error, size = largest_of(a, b, c);
     EdgeFunctions<T> edges;
     edges.a = edge_side(c.x, c.y, b.x, b.y);
     edges.b = edge_side(a.x, a.y, c.x, c.y);
     edges.c = edge_side(b.x, b.y, a.x, a.y);
-    edges.band = (T(4) * off + gamma<T>(6) * size) * size + (T(2) * off * off + T(std::numeric_limits<Scalar<T>>::min()));
+    edges.band =
+        (T(4) * off + gamma<T>(6) * size) * size + (T(2) * off * off + T(std::numeric_limits<Scalar<T>>::min()));
     edges.za = a.z;
     edges.zb = b.z;
     edges.zc = c.z;
@@ -66,7 +69,8 @@ template <class T>
 inline Mask<T> may_pierce(const EdgeFunctions<T>& e, const Shear<T>& shear, T reach) {
     const Mask<T> outside = (e.least() < -e.band) & (e.largest() > e.band);
     const Mask<T> forward = shear.forward;
-    const T nearest = select(forward, e.nearest(), -e.farthest()), farthest = select(forward, e.farthest(), -e.nearest());
+    const T nearest = select(forward, e.nearest(), -e.farthest()),
+            farthest = select(forward, e.farthest(), -e.nearest());
     return !(outside | (farthest < -e.z_band) | (nearest > reach + e.z_band));
 }
 

@@ -15,8 +15,9 @@ std::tuple<T, std::uint32_t, std::int32_t> rank(const Nearest<T>& hit, const Geo
 // the clamp makes that true of rounded numbers too, so that a traversal ordered by entries misses nothing.
 template <class T>
 void consider(const Geometry& geometry, std::uint32_t index, const WideRay<T>& ray, T entry, bool filtered,
-              Nearest<T>& best) {
-    const Crossing<Wide<T>> crossing = first_crossing(geometry, geometry.primitives[index], ray, filtered);
+              bool brute_force, Nearest<T>& best) {
+    const Crossing<Wide<T>> crossing =
+        first_crossing(geometry, geometry.primitives[index], ray, Asking<T>{filtered, brute_force, best.t});
     if (!crossing.hit) return;
     const T t = maximum(T(crossing.t), entry);
     if (!(t < infinity<T>) || t > best.t) return;
@@ -45,12 +46,13 @@ template <class T>
 Nearest<T> closest_hit(const Snapshot& scene, const Ray<T>& ray, Departure departed, Acceleration acceleration) {
     const Geometry& geometry = scene.geometry();
     const WideRay<T> wide(ray);
+    const bool brute_force = acceleration == Acceleration::brute_force;
     Nearest<T> best;
     const auto visit = [&](std::uint32_t index, T entry, bool filtered) {
-        if (index != departed.primitive) consider(geometry, index, wide, entry, filtered, best);
+        if (index != departed.primitive) consider(geometry, index, wide, entry, filtered, brute_force, best);
         return false;
     };
-    if (acceleration == Acceleration::bvh)
+    if (!brute_force)
         scene.accelerator().traverse(geometry, ray, best.t, visit);
     else
         visit_all(geometry, ray, best.t, visit);
@@ -63,15 +65,16 @@ bool is_blocked(const Snapshot& scene, const Ray<T>& ray, Departure departed, st
                 Acceleration acceleration) {
     const Geometry& geometry = scene.geometry();
     const WideRay<T> wide(ray);
+    const bool brute_force = acceleration == Acceleration::brute_force;
     const T reach = ray.has_target ? ray.t_max * T(1 + 0x1p-10) : infinity<T>;
     const auto visit = [&](std::uint32_t index, T, bool filtered) {
         if (index == departed.primitive) return false;
         const Primitive& primitive = geometry.primitives[index];
-        if (!blocks(geometry, primitive, wide, filtered)) return false;
+        if (!blocks(geometry, primitive, wide, Asking<T>{filtered, brute_force})) return false;
         if (blocker) *blocker = scene.objects()[primitive.object].id;
         return true;
     };
-    if (acceleration == Acceleration::bvh) return scene.accelerator().any(geometry, ray, reach, visit);
+    if (!brute_force) return scene.accelerator().any(geometry, ray, reach, visit);
     return visit_all(geometry, ray, reach, visit);
 }
 

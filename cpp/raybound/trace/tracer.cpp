@@ -9,6 +9,7 @@ template <class T>
 struct Tracer<T>::Shadable {
     SurfacePoint<T> hit;
     const Material& material;
+    Vec3<T> side;  // the surface's own normal, turned toward the viewer
     Vec3<T> normal, view, diffuse;
     Departure outer, inner;  // of rays that leave on the viewer's side, and on the other
 };
@@ -61,6 +62,7 @@ Vec3<T> Tracer<T>::shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth
     const Shadable at{hit,
                       material,
                       hit.entering ? hit.normal : -hit.normal,
+                      hit.entering ? hit.shading : -hit.shading,
                       -ray.direction,
                       diffuse,
                       departure(geometry, nearest.primitive, hit.entering),
@@ -68,7 +70,7 @@ Vec3<T> Tracer<T>::shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth
     *t = hit.t;
     if constexpr (Record::active) {
         record.node->point = Vec3d(hit.point);
-        record.node->normal = Vec3d(hit.normal);
+        record.node->normal = Vec3d(hit.shading);
         record.node->face = nearest.crossing.face_offset + nearest.crossing.face;
     }
     const Vec3<T> local = direct_light(at, record);
@@ -104,7 +106,7 @@ Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
 template <class T>
 bool Tracer<T>::is_lit(const Shadable& at, const Light& light, const Vec3<T>& direction, std::int32_t* blocker) {
     ++counts_.shadow;
-    const Vec3<T> origin = offset_origin(at.hit.point, at.hit.point_error, at.normal);
+    const Vec3<T> origin = offset_origin(at.hit.point, at.hit.point_error, at.side);
     const bool directional = light.kind == LightKind::directional;
     const Ray<T> ray = directional ? make_ray(origin, direction) : make_segment(origin, Vec3<T>(light.position));
     return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration);
@@ -129,13 +131,13 @@ Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const 
     }
     if (max_component(reflect) > T(0)) {
         ++counts_.reflected;
-        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, at.normal),
+        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, at.side),
                                      reflected_direction(ray.direction, at.normal));
         sum = saturate(sum + reflect * radiance(next, at.outer, depth + 1, record.child(RayKind::reflected), nullptr));
     }
     if (max_component(transmit) > T(0)) {
         ++counts_.refracted;
-        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, -at.normal), through);
+        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, -at.side), through);
         sum = saturate(sum + transmit * radiance(next, at.inner, depth + 1, record.child(RayKind::refracted), nullptr));
     }
     return sum;
