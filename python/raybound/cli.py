@@ -150,20 +150,21 @@ def _bench(options: argparse.Namespace) -> None:
     arguments, block = _bench_arguments(options), f"bench {options.what}"
     if options.readme is not None:
         tables.split_block(Path(options.readme), block)  # raises before time is spent
+    if options.json is not None and not Path(options.json).parent.is_dir():
+        raise ValueError(f"--json: no such folder: {str(Path(options.json).parent)!r}")
     result = bench.measure(**arguments)
     made = list(bench.tables(result))
     missing = list(tables.left_out(result["left_out"]))
     if not made:
         raise ValueError(f"nothing could be measured; {'; '.join(missing)}")
     for table in made:
-        for line in table.markdown() if options.markdown else table.text():
-            print(line)
+        print(*(table.markdown() if options.markdown else table.text()), sep="\n", end="\n\n")
     for line in missing:
         print(line)
     if options.json is not None:
         Path(options.json).write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     if options.readme is not None:
-        tables.rewrite_block(Path(options.readme), block, [line for table in made for line in table.markdown()])
+        tables.rewrite_block(Path(options.readme), block, made)
 
 
 def _bench_arguments(options: argparse.Namespace) -> dict[str, Any]:

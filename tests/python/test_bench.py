@@ -129,7 +129,7 @@ def test_primary_hits_are_those_of_a_frame() -> None:
 def test_tables() -> None:
     table = tables.Table("Title", ["name", "ns"], [["a", "1.5"], ["long", "200.0"]])
     assert list(table.text()) == ["Title", "name     ns", "a       1.5", "long  200.0"]
-    expected = ["Title", "", "| name | ns |", "| --- | --: |", "| a | 1.5 |", "| long | 200.0 |", ""]
+    expected = ["Title", "", "| name | ns |", "| --- | --: |", "| a | 1.5 |", "| long | 200.0 |"]
     assert list(table.markdown()) == expected
 
 
@@ -156,6 +156,7 @@ BAD = [
     (["bench", "base", "--threads=1,x"], "--threads must be numbers in 1..1024 with commas between them, got '1,x'"),
     (["bench", "base", "--scenes=house"], "scenes must be among museum, "),
     (["bench", "base", "--readme=none.md"], "none.md"),
+    (["bench", "base", "--json=none/a.json"], "--json: no such folder: 'none'"),
     (["bench", "embree", "--width=3"], "--width cannot be chosen for bench embree"),
 ]
 

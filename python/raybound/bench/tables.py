@@ -23,14 +23,13 @@ class Table:
             yield "  ".join(cell.rjust(width) if k else cell.ljust(width) for k, (cell, width) in _cells(row, widths))
 
     def markdown(self) -> Iterator[str]:
-        """The lines of the table in Markdown, after its title and before an empty line."""
+        """The lines of the table in Markdown, after its title."""
         yield self.title
         yield ""
         yield f"| {' | '.join(self.columns)} |"
         yield f"| {' | '.join('--:' if k else '---' for k in range(len(self.columns)))} |"
         for row in self.rows:
             yield f"| {' | '.join(row)} |"
-        yield ""
 
 
 def _cells(row: Sequence[str], widths: Sequence[int]) -> Iterator[tuple[int, tuple[str, int]]]:
@@ -56,8 +55,8 @@ def split_block(path: Path, name: str) -> tuple[str, str]:
     return before + begin, end + after
 
 
-def rewrite_block(path: Path, name: str, lines: Sequence[str]) -> None:
-    """Puts `lines` into a block of a file, in place of what is there; see `split_block`."""
+def rewrite_block(path: Path, name: str, tables: Sequence[Table]) -> None:
+    """Puts tables in Markdown into a block of a file, in place of what is there; see `split_block`."""
     before, after = split_block(path, name)
-    body = "\n".join(lines).strip("\n")
+    body = "\n\n".join("\n".join(table.markdown()) for table in tables)
     path.write_text(f"{before}{body}\n{after}", encoding="utf-8")
