@@ -80,10 +80,12 @@ def test_scenes_that_cannot_be_measured_are_named(monkeypatch: pytest.MonkeyPatc
 
 def test_files_that_cannot_be_read_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RAYBOUND_DATA", str(tmp_path))
+    assert workloads.default_names() == ["museum", "sphereflake:4", *workloads.SPD]
     with pytest.raises(workloads.UnavailableError, match=r"RAYBOUND_DATA has no nff/balls_s4\.nff"):
         workloads.load("balls_s4")
     (tmp_path / "nff").mkdir()
     (tmp_path / "nff" / "balls_s4.nff").write_text("nonsense 1 2 3\n")
+    assert workloads.default_names() == ["museum", *workloads.SPD]
     with pytest.raises(workloads.UnavailableError, match="balls_s4"):
         workloads.load("balls_s4")
 

@@ -22,11 +22,13 @@ def measure(
     height: int = 900,
     repeat: int = 5,
     threads: Sequence[int] = (1, 2),
-    names: Sequence[str] = workloads.NAMES,
+    names: Sequence[str] | None = None,
     triangles: int = 1_000_000,
     rays: int = 1_000_000,
 ) -> dict[str, Any]:
     """Measures the base tracer on scenes, seen by their own cameras, and on a mesh of about `triangles` triangles.
+
+    `names` are among `workloads.NAMES`; None takes `workloads.default_names()`.
 
     Returns a JSON-ready dictionary: "machine" (as `report`), the arguments, "scenes" by name, "mesh", and "left_out",
     the reasons why some are missing. Times are medians over `repeat` runs after one that is not counted. A scene has
@@ -44,7 +46,7 @@ def measure(
         "mesh": None,
         "left_out": {},
     }
-    for name in names:
+    for name in workloads.default_names() if names is None else names:
         try:
             result["scenes"][name] = _scene(name, width, height, repeat, threads)
         except workloads.UnavailableError as reason:

@@ -42,6 +42,15 @@ def data_file(name: str) -> Path:
     return path
 
 
+def default_names() -> list[str]:
+    """The museum and the SPD scenes; where these are missing, the sphereflake stands in for `balls_s4`, its copy."""
+    try:
+        data_file("balls_s4")
+    except UnavailableError:
+        return [*READY, *SPD]
+    return ["museum", *SPD]
+
+
 def load(name: str) -> Scene:
     """The scene called `name`. ValueError for an unknown name, UnavailableError if it cannot be loaded."""
     if name in READY:
@@ -51,7 +60,7 @@ def load(name: str) -> Scene:
     path = data_file(name)
     try:
         return load_scene(path)
-    except ValueError as error:
+    except (ValueError, ImportError) as error:
         raise UnavailableError(str(error)) from error
 
 
