@@ -17,16 +17,22 @@ TEST ?=
 ARGS ?=
 PYTEST_ARGS = $(if $(TEST),-k "$(TEST)") $(ARGS)
 
+# Scenes to measure and test with, and the yardstick's source: read where they are.
 ifndef RAYBOUND_DATA
 ifneq ($(wildcard ../shared/data/.),)
 export RAYBOUND_DATA := $(abspath ../shared/data)
 endif
 endif
+ifndef RAYBOUND_BENCH
+ifneq ($(wildcard ../shared/bench/.),)
+export RAYBOUND_BENCH := $(abspath ../shared/bench)
+endif
+endif
 
-.PHONY: help build fmt lint test notebooks soak bench demo sanitize sabotage clean
+.PHONY: help build fmt lint test notebooks soak bench bench-embree demo wheel levels sanitize sabotage clean
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 # --- What is installed, and when again -----------------------------------------------------------------------------------
 
@@ -86,27 +92,46 @@ notebooks: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the notebooks
 soak: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the long searches for failures
 	$(PY) -m pytest -m soak -o timeout=3000 $(PYTEST_ARGS)
 
-bench: $(VENV)/stamp-build $(VENV)/stamp-plot ## Measure speed, with a table
+bench: $(VENV)/stamp-build ## Measure the base tracer's speed; ARGS=--readme renews the README's tables
 	$(PY) -m raybound bench base $(ARGS)
+
+bench-embree: $(VENV)/stamp-build $(VENV)/stamp-bench ## Measure speed beside Embree's (needs libembree-dev)
+	$(PY) -m raybound bench embree $(ARGS)
 
 demo: $(VENV)/stamp-build ## Render the walk-through to ./out
 	$(PY) -m raybound demo $(ARGS)
 
 # --- Variants: other builds of the same sources, each installed under build/NAME beside .venv's packages --------------------
 
-# $(call variant,NAME,CMAKE DEFINITIONS): builds into build/NAME/cmake, installs into build/NAME/site, and makes
-# build/NAME/venv, whose Python finds that module first and the dependencies in .venv (whose editable raybound it does not
-# see: a path file is not followed a second time).
-define variant
-	@echo "building the variant $(1)"
-	@mkdir -p build/$(1)
+# $(call environment,NAME,WHAT,OPTIONS): pip installs WHAT into build/NAME/site with its options, and build/NAME/venv has
+# a Python that finds that module first and then the dependencies in .venv (whose editable raybound it does not see: a
+# path file is not followed a second time).
+define environment
 	@rm -rf build/$(1)/site build/$(1)/venv
-	@$(PIP) install --quiet --no-build-isolation --no-deps --target build/$(1)/site --config-settings=install.strip=false \
-		--config-settings=build-dir=build/$(1)/cmake $(foreach d,$(2),--config-settings=cmake.define.$(d)) .
+	@$(PIP) install --quiet --no-deps --target build/$(1)/site $(3) $(2)
 	@$(PY) -m venv --without-pip build/$(1)/venv
 	@site() { "$$1" -c 'import sysconfig; print(sysconfig.get_path("platlib"))'; }; \
 		printf '%s\n' '$(CURDIR)/build/$(1)/site' "$$(site $(PY))" > "$$(site build/$(1)/venv/bin/python)/variant.pth"
 endef
+
+# $(call variant,NAME,CMAKE DEFINITIONS): the sources built in build/NAME/cmake and installed as above.
+define variant
+	@echo "building the variant $(1)"
+	@mkdir -p build/$(1)
+	$(call environment,$(1),.,--no-build-isolation --config-settings=install.strip=false \
+		--config-settings=build-dir=build/$(1)/cmake $(foreach d,$(2),--config-settings=cmake.define.$(d)))
+endef
+
+wheel: $(VENV)/stamp-tools ## Build a wheel that holds every instruction level into ./dist
+	@echo "building the module for every instruction level"
+	@rm -f dist/raybound-*.whl
+	@$(PIP) wheel --quiet --no-build-isolation --no-deps --wheel-dir dist --config-settings=build-dir=build/levels/cmake \
+		--config-settings=cmake.define.RAYBOUND_LEVELS=all --config-settings=cmake.define.RAYBOUND_WERROR=ON .
+	@ls -s -h dist/raybound-*.whl
+
+levels: wheel $(VENV)/stamp-test ## Build that wheel and compare the levels' pictures and hits, byte for byte
+	$(call environment,levels,dist/raybound-*.whl)
+	build/levels/venv/bin/python -m pytest -p no:cacheprovider tests/python/test_levels.py $(PYTEST_ARGS)
 
 # Sanitizers come with g++; their libraries must be loaded before Python's, and libstdc++ with them for exceptions.
 SANITIZE_CXX ?= g++
@@ -149,5 +174,5 @@ sabotage-%: $(VENV)/stamp-tools $(VENV)/stamp-test
 	esac
 
 clean: ## Remove .venv, build folders, caches and ./out
-	rm -rf $(VENV) build out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -not -path './.git/*' -prune -exec rm -rf {} +

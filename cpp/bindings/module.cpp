@@ -13,7 +13,9 @@ py::dict build_info() {
 
 }  // namespace
 
-PYBIND11_MODULE(_core, m) {
+// RAYBOUND_MODULE is _core, or the name of one instruction level's build: _core_v3. All are known as _core.
+PYBIND11_MODULE(RAYBOUND_MODULE, m) {
+    m.attr("__name__") = "raybound._core";
     m.doc() = "The raw engine of raybound; the public interface is the package raybound.";
     register_numbers(m);
     register_transforms(m);

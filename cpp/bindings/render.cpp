@@ -1,6 +1,7 @@
 #include "raybound/frame/render.h"
 
 #include "bindings/arrays.h"
+#include "raybound/frame/query.h"
 
 namespace raybound::python {
 
@@ -68,6 +69,31 @@ py::dict trace(const std::shared_ptr<Snapshot>& snapshot, const Floats& origins,
                     "rays"_a = ray_counts(result.statistics.rays));
 }
 
+py::dict closest_hits_dict(const Snapshot& scene, const Floats& origins, const Floats& directions, int threads) {
+    const auto o = to_vectors<float>(origins), d = to_vectors<float>(directions);
+    if (o.size() != d.size() || threads < 0)
+        throw std::invalid_argument("closest_hits: origins and directions must have the same shape, threads >= 0");
+    ClosestHits hits;
+    const py::object silent = py::none();
+    {
+        const py::gil_scoped_release released;
+        hits = closest_hits(scene, o, d, threads, watcher(silent));
+    }
+    return py::dict("t"_a = from_vector(hits.t), "object_id"_a = from_vector(hits.object_id),
+                    "face_id"_a = from_vector(hits.face_id), "seconds"_a = hits.seconds);
+}
+
+py::tuple primary_hits_tuple(const Snapshot& scene, const Camera& camera, int threads) {
+    if (threads < 0) throw std::invalid_argument("primary_hits: threads must be >= 0");
+    PrimaryHits found;
+    const py::object silent = py::none();
+    {
+        const py::gil_scoped_release released;
+        found = primary_hits(scene, camera, threads, watcher(silent));
+    }
+    return py::make_tuple(found.hits, found.seconds);
+}
+
 py::tuple tuple_of(const Vec3d& v) { return py::make_tuple(v.x, v.y, v.z); }
 
 py::dict tree_dict(const RayTreeNode& node) {
@@ -118,6 +144,8 @@ void register_render(py::module_& m) {
           "stride"_a, "precision"_a, "brute_force"_a, "progress"_a);
     m.def("trace", &trace, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "max_depth"_a, "threads"_a,
           "progress"_a);
+    m.def("closest_hits", &closest_hits_dict, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "threads"_a);
+    m.def("primary_hits", &primary_hits_tuple, "snapshot"_a, "camera"_a, py::kw_only(), "threads"_a);
     m.def("explain", &explain, "snapshot"_a, "camera"_a, "x"_a, "y"_a, "max_depth"_a);
 }
 

@@ -14,6 +14,7 @@ Lengths are in scene units, angles in degrees, colours linear RGB (Rec. 709 prim
 
 import logging as _logging
 
+from . import _levels  # noqa: F401  isort: skip  # it makes `_core` the best build for this CPU
 from . import _core
 from .camera import Camera
 from .enums import Path, Reason

@@ -32,6 +32,12 @@ class _Traced(TypedDict):
     t: _Float
     rays: _Rays
 
+class _ClosestHits(TypedDict):
+    t: _Float
+    object_id: npt.NDArray[np.int32]
+    face_id: npt.NDArray[np.int32]
+    seconds: float
+
 class _BuildInfo(TypedDict):
     version: str
     compiler: str
@@ -209,5 +215,7 @@ def render(
 def trace(
     snapshot: Snapshot, origins: _Float, directions: _Float, *, max_depth: int, threads: int, progress: _Progress
 ) -> _Traced: ...
+def closest_hits(snapshot: Snapshot, origins: _Float, directions: _Float, *, threads: int) -> _ClosestHits: ...
+def primary_hits(snapshot: Snapshot, camera: Camera, *, threads: int) -> tuple[int, float]: ...
 def explain(snapshot: Snapshot, camera: Camera, x: int, y: int, max_depth: int) -> dict[str, Any]: ...
 def build_info() -> _BuildInfo: ...

@@ -37,13 +37,7 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("--height", type=int, default=450, help="of the walk-through's frames, pixels (default 450)")
     demo.add_argument("--out", default="out", help="folder for pictures and statistics (default ./out)")
     demo.set_defaults(run=_demo)
-    bench = commands.add_parser("bench", help="measure speed")
-    bench.add_argument("what", nargs="?", choices=["base"], default="base", help="base: the base tracer")
-    bench.add_argument("--width", type=int, default=1200, help="pixels (default 1200)")
-    bench.add_argument("--height", type=int, default=900, help="pixels (default 900)")
-    bench.add_argument("--repeat", type=int, default=5, help="frames to take the median of (default 5)")
-    bench.add_argument("--json", metavar="FILE", help="write the measurements to a file, too")
-    bench.set_defaults(run=_bench)
+    _add_bench(commands.add_parser("bench", help="measure speed"))
     return parser
 
 
@@ -65,6 +59,25 @@ def _add_render(render: argparse.ArgumentParser) -> None:
     render.add_argument("--method", choices=METHODS, default="auto", help="default auto")
     render.add_argument("--progress", action="store_true", help="show a progress bar")
     render.set_defaults(run=_render)
+
+
+def _add_bench(bench: argparse.ArgumentParser) -> None:
+    what = "base: the base tracer (default); embree: beside Embree, one thread"
+    bench.add_argument("what", nargs="?", choices=["base", "embree"], default="base", help=what)
+    bench.add_argument("--width", type=int, help="of base, pixels (default 1200)")
+    bench.add_argument("--height", type=int, help="of base, pixels (default 900)")
+    bench.add_argument("--threads", help="of base, numbers of threads (default 1,2)")
+    bench.add_argument(
+        "--repeat", type=int, help="runs to take the median of, or rounds to take the best of (default 5)"
+    )
+    bench.add_argument("--scenes", help="their names, with commas (default all)")
+    bench.add_argument("--triangles", type=int, help="of the mesh (default 1000000)")
+    bench.add_argument("--rays", type=int, help="scattered at the mesh (default 1000000)")
+    bench.add_argument("--json", metavar="FILE", help="write the measurements to a file, too")
+    bench.add_argument("--markdown", action="store_true", help="print the tables in Markdown")
+    readme = "put the tables into the block <!-- bench WHAT --> of a Markdown file (default README.md)"
+    bench.add_argument("--readme", nargs="?", const="README.md", metavar="FILE", help=readme)
+    bench.set_defaults(run=_bench)
 
 
 def _tolerance(text: str) -> Tolerance:
@@ -133,16 +146,49 @@ def _demo(options: argparse.Namespace) -> None:
 
 
 def _bench(options: argparse.Namespace) -> None:
-    from . import bench  # makes scenes
+    from .bench import base, embree, tables  # makes scenes
 
-    for name in ("width", "height", "repeat"):
-        if getattr(options, name) < 1:
-            raise ValueError(f"--{name} must be >= 1, got {getattr(options, name)}")
-    result = bench.base(width=options.width, height=options.height, repeat=options.repeat)
-    for line in bench.table(result):
+    bench = {"base": base, "embree": embree}[options.what]
+    arguments, block = _bench_arguments(options), f"bench {options.what}"
+    if options.readme is not None:
+        tables.split_block(Path(options.readme), block)  # raises before time is spent
+    if options.json is not None and not Path(options.json).parent.is_dir():
+        raise ValueError(f"--json: no such folder: {str(Path(options.json).parent)!r}")
+    result = bench.measure(**arguments)
+    made = list(bench.tables(result))
+    missing = list(tables.left_out(result["left_out"]))
+    if not made:
+        raise ValueError(f"nothing could be measured; {'; '.join(missing)}")
+    for table in made:
+        print(*(table.markdown() if options.markdown else table.text()), sep="\n", end="\n\n")
+    for line in missing:
         print(line)
     if options.json is not None:
         Path(options.json).write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    if options.readme is not None:
+        tables.rewrite_block(Path(options.readme), block, made)
+
+
+def _bench_arguments(options: argparse.Namespace) -> dict[str, Any]:
+    """The arguments of `measure` that were given, checked."""
+    given: dict[str, Any] = {}
+    for name in ("width", "height", "repeat", "triangles", "rays"):
+        value = getattr(options, name)
+        if value is not None:
+            if value < 1:
+                raise ValueError(f"--{name} must be >= 1, got {value}")
+            given[name] = value
+    if options.scenes is not None:
+        given["names"] = [name for name in options.scenes.split(",") if name]
+    if options.threads is not None:
+        numbers = options.threads.split(",")
+        if not all(number.isdecimal() and 0 < int(number) <= 1024 for number in numbers):
+            raise ValueError(f"--threads must be numbers in 1..1024 with commas between them, got {options.threads!r}")
+        given["threads"] = [int(number) for number in numbers]
+    fixed = [name for name in ("width", "height", "threads") if options.what == "embree" and name in given]
+    if fixed:
+        raise ValueError(f"--{fixed[0]} cannot be chosen for bench embree: 1200 x 900 pixels, one thread")
+    return given
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -6,7 +6,7 @@ import platform
 
 import numpy as np
 
-from . import _core, images
+from . import _core, _levels, images
 
 
 class Report(dict[str, object]):
@@ -19,7 +19,11 @@ class Report(dict[str, object]):
 
 
 def report() -> Report:
-    """Versions, compiler, instruction level and threads: for bug reports. A dictionary that prints as lines."""
+    """Versions, compiler, instruction level (in use, and all usable here) and threads: for bug reports.
+
+    A dictionary that prints as lines. A wheel holds several levels, of which the environment variable RAYBOUND_LEVEL
+    can name one to use instead of the best.
+    """
     build = dict(_core.build_info())
     found = Report(raybound=build.pop("version"))
     found.update(
@@ -30,4 +34,5 @@ def report() -> Report:
         processor=platform.processor() or platform.machine(),
     )
     found.update(build)
+    found["instruction_levels_available"] = ", ".join(_levels.AVAILABLE)
     return found

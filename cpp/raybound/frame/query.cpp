@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "raybound/frame/stopwatch.h"
+
 namespace raybound {
 
 namespace {
@@ -29,6 +31,15 @@ std::vector<Record> blank_records(std::size_t count) {
     return records;
 }
 
+std::int32_t object_id(const Snapshot& scene, const Nearest<float>& nearest) {
+    return scene.objects()[scene.geometry().primitives[nearest.primitive].object].id;
+}
+
+template <class T>
+std::int32_t face_id(const Crossing<T>& crossing) {
+    return crossing.face_offset + crossing.face;
+}
+
 void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const Ray<float>& ray,
                  float scale) {
     constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
@@ -41,8 +52,8 @@ void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>&
     store(at.shading, record.normal);
     record.uv[0] = at.uv.u;
     record.uv[1] = at.uv.v;
-    record.object_id = scene.objects()[scene.geometry().primitives[nearest.primitive].object].id;
-    record.face_id = nearest.crossing.face_offset + nearest.crossing.face;
+    record.object_id = object_id(scene, nearest);
+    record.face_id = face_id(nearest.crossing);
 }
 
 // The epsilon policies take the plain point o + t d and move it by 1e-5, or by 10 ulp of each coordinate.
@@ -67,21 +78,21 @@ void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossin
     store(at.shading, record.normal);
     record.uv[0] = double(at.uv.u);
     record.uv[1] = double(at.uv.v);
-    record.face_id = crossing.face_offset + crossing.face;
+    record.face_id = face_id(crossing);
     store(bounded ? offset_origin(p, at.point_error, at.normal) : epsilon_origin(p, at.normal, offsets),
           record.next_origin);
 }
 
-// Calls answer(i) for every i in [0, count), in chunks, on all cores.
+// Calls answer(i) for every i in [0, count), in chunks, on some threads (0: all cores).
 template <class Answer>
-void answer_all(std::size_t count, const Watch& watch, const Answer& answer) {
+void answer_all(std::size_t count, const Watch& watch, const Answer& answer, int threads = 0) {
     constexpr std::size_t chunk = 512;
     std::atomic<bool> cancelled = false;
     const auto work = [&](int item, int) {
         const std::size_t begin = std::size_t(item) * chunk;
         for (std::size_t i = begin; i < std::min(count, begin + chunk); ++i) answer(i);
     };
-    run_work(int((count + chunk - 1) / chunk), 0, cancelled, work, watch);
+    run_work(int((count + chunk - 1) / chunk), threads, cancelled, work, watch);
 }
 
 }  // namespace
@@ -108,6 +119,39 @@ std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f>
         blocked[i] = is_blocked(scene, make_segment(origins[i], targets[i]), {}, nullptr);
     });
     return blocked;
+}
+
+ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions,
+                         int threads, const Watch& watch) {
+    const std::size_t count = origins.size();
+    ClosestHits hits{std::vector<float>(count, infinity<float>), std::vector<std::int32_t>(count, -1),
+                     std::vector<std::int32_t>(count, -1), 0};
+    const auto search = [&](std::size_t i) {
+        float scale;
+        const Nearest<float> nearest = closest_hit(scene, user_ray(origins[i], directions[i], scale, i));
+        if (!nearest.hit) return;
+        hits.t[i] = nearest.t / scale;
+        hits.object_id[i] = object_id(scene, nearest);
+        hits.face_id[i] = face_id(nearest.crossing);
+    };
+    const Stopwatch stopwatch;
+    answer_all(count, watch, search, threads);
+    hits.seconds = stopwatch.seconds();
+    return hits;
+}
+
+PrimaryHits primary_hits(const Snapshot& scene, const Camera& camera, int threads, const Watch& watch) {
+    std::atomic<std::uint64_t> hits = 0;
+    std::atomic<bool> cancelled = false;
+    const auto search_row = [&](int y, int) {
+        std::uint64_t found = 0;
+        for (int x = 0; x < camera.width(); ++x)
+            found += closest_hit(scene, make_ray(camera.eye(), camera.direction<float>(x, y))).hit;
+        hits += found;
+    };
+    const Stopwatch stopwatch;
+    run_work(camera.height(), threads, cancelled, search_row, watch);
+    return {hits, stopwatch.seconds()};
 }
 
 template <class T>

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "raybound/frame/camera.h"
 #include "raybound/frame/work_queue.h"
 #include "raybound/trace/search.h"
 
@@ -24,6 +25,23 @@ std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec
 // Is there anything certainly between origin and target? Origins are taken as they are, nothing is offset.
 std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
                                    std::span<const Vec3f> targets, const Watch& watch);
+
+// The searches alone, without points, bounds and shading, on some threads (0: all cores), and the seconds they took: to
+// measure them. t, in units of each direction's length, is the one that searches compare.
+struct ClosestHits {
+    std::vector<float> t;
+    std::vector<std::int32_t> object_id, face_id;
+    double seconds;
+};
+ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions,
+                         int threads, const Watch& watch);
+
+// The same for the rays of a camera, of which it is only counted how many hit.
+struct PrimaryHits {
+    std::uint64_t hits;
+    double seconds;
+};
+PrimaryHits primary_hits(const Snapshot& scene, const Camera& camera, int threads, const Watch& watch);
 
 // How an origin is moved off a surface: by the error bounds, or, to measure against, by a fixed or a scaled epsilon
 // (seeds/004).

@@ -1,23 +1,16 @@
 #include "raybound/frame/render.h"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 #include <string>
+
+#include "raybound/frame/stopwatch.h"
 
 namespace raybound {
 
 namespace {
 
 constexpr int tile_size = 32;  // TUNED: 16 to 64 measure alike on two cores
-
-class Stopwatch {
-  public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // A pixel whose trace was cut short by a cancellation is not stored.
 template <class T>
