@@ -10,13 +10,14 @@ from types import MappingProxyType
 
 from ... import _validate
 from ...scene import Scene
-from .registry import CASES, HardCase
-
-from . import reach, grazing, meshes, edges, light_paths, shadows, transforms  # isort: skip  # each enters its cases
+from . import edges, grazing, light_paths, meshes, reach, shadows, transforms
+from .registry import HardCase
 
 __all__ = ["HARD_CASES", "HardCase", "hard_case"]
 
-HARD_CASES: Mapping[str, HardCase] = MappingProxyType(CASES)
+_GROUPS = (reach, grazing, meshes, edges, light_paths, shadows, transforms)
+
+HARD_CASES: Mapping[str, HardCase] = MappingProxyType({c.name: c for group in _GROUPS for c in group.case.cases})
 """The hard cases by name: a read-only mapping of `HardCase`."""
 
 

@@ -9,9 +9,10 @@ from ...lights import DirectionalLight, PointLight
 from ...scene import Scene
 from ...shapes import Box, Cone, Cylinder, Sphere
 from ...transform import Transform
-from .registry import case
+from .registry import Group
 from .stage import BLUE, COLOURS, GREEN, GREY, RED, WHITE, YELLOW, Place, fov_of, power_of_two, scene_with, shape_named
 
+case = Group()
 ZOOMS = (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
 
 

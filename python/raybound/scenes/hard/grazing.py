@@ -9,9 +9,10 @@ from ...lights import DirectionalLight
 from ...materials import Material
 from ...scene import Scene
 from ...shapes import Box, Cone, Cylinder, Polygon, Shape, Sphere
-from .registry import Maker, case
+from .registry import Group
 from .stage import BLUE, GREEN, RED, YELLOW, fov_of, scene_with
 
+case = Group()
 SHINY = Material((0.42, 0.40, 0.37), reflect=0.35)
 ANGLES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
@@ -36,18 +37,16 @@ def _along(surface: Shape, angle: float) -> Scene:
 def _grazing(kind: str, surface: Shape) -> None:
     """Enters the case of one kind of surface."""
 
-    def make(scale: float) -> Scene:
-        return _along(surface, scale)
-
-    enter: Maker = make
-    case(
+    @case(
         f"grazing-{kind}",
         f"A {kind} seen at a grazing angle, with small things that stand on it and mirror in it.",
         scale="the angle of the view to the surface, rad",
         default=1e-3,
         scales=ANGLES,
         within=(1e-8, 0.125),
-    )(enter)
+    )
+    def make(scale: float) -> Scene:
+        return _along(surface, scale)
 
 
 _grazing("plane", Polygon([(-2.0, -2.0, 0.0), (2.0, -2.0, 0.0), (2.0, 2.0, 0.0), (-2.0, 2.0, 0.0)]))

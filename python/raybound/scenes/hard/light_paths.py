@@ -9,11 +9,13 @@ from ...lights import DirectionalLight
 from ...materials import Material
 from ...scene import Scene
 from ...shapes import Box, Sphere
-from .registry import case
+from .registry import Group
 from .stage import BLUE, COLOURS, GLASS, GREEN, GREY, RED, SKY, WHITE, YELLOW, Place, chequers, fov_of, scene_with
 
 IOR = 1.5
 CLEAR = Material(0.0, transmit=1.0, ior=IOR)
+
+case = Group()
 
 
 @case(

@@ -1,8 +1,9 @@
-"""Closed meshes with needles, with triangles of all sizes, and far from the origin: no ray may pass between triangles."""
+"""Closed meshes with needles, with triangles of all sizes, and far away: no ray may pass between triangles."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,16 +12,18 @@ from ...camera import Camera
 from ...lights import DirectionalLight, PointLight
 from ...materials import Material
 from ...scene import Scene
-from .registry import case
+from .registry import Group
 from .stage import GREY, RED, WHITE, YELLOW, Place, power_of_two, scene_with, shape_named
 
 Vertices = NDArray[np.float64]
+Angles = NDArray[np.floating[Any]]
 Faces = NDArray[np.int64]
 
+case = Group()
 FAR = (148376.0, 1234.0, -223423.0)
 
 
-def globe(polar: Vertices, turn: Vertices) -> tuple[Vertices, Faces]:
+def globe(polar: Angles, turn: Angles) -> tuple[Vertices, Faces]:
     """The unit sphere as a closed mesh: vertices (n, 3) and faces (m, 3), counter-clockwise seen from outside.
 
     `polar` are the angles of its rings from the z axis, between 0 and pi and growing; `turn` those of the vertices on
@@ -58,7 +61,7 @@ def needle_mesh(scale: float) -> Scene:
     """A faceted gem of 24 sides with a needle along each edge; a light inside must not show on the floor."""
     sides = np.arange(24) * (2 * math.pi / 24)
     vertices, faces = globe(np.array([0.5, 1.1, 2.2]), np.sort(np.concatenate([sides, sides + scale])))
-    gem = shape_named("Mesh")(vertices + (0.0, 0.0, 1.25), faces)
+    gem = shape_named("Mesh")(vertices + np.array([0.0, 0.0, 1.25]), faces)
     scene = scene_with((gem, RED), (Place().floor(8.0), GREY))
     scene.add_light(PointLight((0.0, 0.0, 1.25), 1.0))
     scene.add_light(DirectionalLight((0.5, 0.75, -1.0), 0.7))

@@ -31,23 +31,27 @@ class HardCase:
     make: Maker
 
 
-CASES: dict[str, HardCase] = {}
+class Group:
+    """The cases of one file, entered by `@case(...)` in the order in which they stand there."""
 
+    def __init__(self) -> None:
+        self.cases: list[HardCase] = []
 
-def case(
-    name: str,
-    about: str,
-    *,
-    scale: str,
-    default: float,
-    scales: tuple[float, ...],
-    within: tuple[float, float],
-    max_depth: int = 5,
-) -> Callable[[Maker], Maker]:
-    """Enters a generator into the list."""
+    def __call__(
+        self,
+        name: str,
+        about: str,
+        *,
+        scale: str,
+        default: float,
+        scales: tuple[float, ...],
+        within: tuple[float, float],
+        max_depth: int = 5,
+    ) -> Callable[[Maker], Maker]:
+        """Enters the generator that it decorates."""
 
-    def enter(make: Maker) -> Maker:
-        CASES[name] = HardCase(name, about, scale, default, scales, *within, max_depth, make)
-        return make
+        def enter(make: Maker) -> Maker:
+            self.cases.append(HardCase(name, about, scale, default, scales, *within, max_depth, make))
+            return make
 
-    return enter
+        return enter

@@ -6,8 +6,10 @@ from ...camera import Camera
 from ...lights import DirectionalLight, PointLight
 from ...scene import Scene
 from ...shapes import Box, Cone, Cylinder, Sphere
-from .registry import case
+from .registry import Group
 from .stage import BLUE, GREEN, GREY, RED, WHITE, YELLOW, Place, fov_of, scene_with
+
+case = Group()
 
 
 @case(

@@ -6,9 +6,10 @@ from ...camera import Camera
 from ...scene import Scene
 from ...shapes import Box, Cone, Cylinder, Shape, Sphere
 from ...transform import Transform
-from .registry import case
+from .registry import Group
 from .stage import BLUE, GREEN, GREY, RED, YELLOW, Place, scene_with
 
+case = Group()
 AXIS = (1.0, 2.0, 3.0)
 
 
