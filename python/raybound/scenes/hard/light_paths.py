@@ -100,12 +100,13 @@ def mirror_corridor(scale: float) -> Scene:
     """Mirrors at x = 0 and 1; a view at 45 degrees to them passes a row of balls and ends in a striped wall."""
     silver = Material(0.0, reflect=(0.985, 0.99, 0.98))
     scene = Scene(ambient=0.9, background=SKY)
+    high = 4.0 + scale / 2  # no ray of the view leaves over the mirrors
     for x in (0.0, 1.0):
-        corners = [(x, -1.0, -8.0), (x, scale, -8.0), (x, scale, 8.0), (x, -1.0, 8.0)]
+        corners = [(x, -1.0, -high), (x, scale, -high), (x, scale, high), (x, -1.0, high)]
         scene.add(Place().polygon(corners), silver)
     for k, y in enumerate((1.25, 2.875, 5.125)):
         scene.add(Sphere((0.5, min(y, 0.75 * scale), -0.375), 0.125), COLOURS[k])
-    scene.add(Box((-1.0, scale + 0.5, -16.0), (2.0, scale + 1.0, 0.0)), GREY)
+    scene.add(Box((-1.0, scale + 0.5, -high), (2.0, scale + 1.0, 0.0)), GREY)
     scene.camera = Camera((0.5, 0.0, 0.0), (1.5, 1.0, 0.0), fov=20.0)
     return scene
 
