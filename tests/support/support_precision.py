@@ -38,7 +38,9 @@ def zoomed(cam: rb.Camera, x: int, y: int, reach: float = REACH) -> rb.Camera:
     direction = cam.rays()[1][y, x].astype(float)
     pixel = 2 * np.tan(np.radians(cam.fov) / 2) / cam.height
     fov = float(np.degrees(2 * np.arctan(reach * pixel * 1.25)))
-    return cam.replace(target=np.add(cam.eye, direction), fov=max(fov, 0.001), width=5, height=5)
+    # A far target: its rounding turns the view by a unit in the last place, wherever the eye is.
+    target = np.add(cam.eye, 1024 * max(1.0, *np.abs(cam.eye)) * direction)
+    return cam.replace(target=target, fov=max(fov, 0.001), width=5, height=5)
 
 
 def is_explained(scene: rb.Scene, cam: rb.Camera, max_depth: int, x: int, y: int, reach: float = REACH) -> bool:

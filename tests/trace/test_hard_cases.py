@@ -12,7 +12,6 @@ from tests.support.support_precision import REACH, TOLERANCE, is_explained, pict
 
 import raybound as rb
 
-SAMPLES = 24  # pixels of a picture that are checked exactly: half of them on outlines
 ULPS = 8  # a decision may be that of a ray which differs by so many roundings
 
 
@@ -82,8 +81,8 @@ def test_pictures_are_clean_and_those_of_brute_force(name: str, scale: float) ->
 
 
 # What a picture may differ by where it is not near a discontinuity. Far from the origin points lie on a grid of 1/128
-# of the radius of a ball: reflected rays start up to 4 steps, an eighth of a pixel, beside their lines. Seen: 0.006.
-REACHES = {"far-mirror": 0.125, "far-mesh": 0.125}
+# of the radius of a ball: reflected rays start up to 3 steps, a tenth of a pixel, beside their lines. Seen: 0.006.
+REACHES = {"far-mirror": 0.1, "far-mesh": 0.1}
 TOLERANCES = {"far-mirror": 0.01, "far-mesh": 0.01, "csg-coincident": 1e-3}
 # The share of pixels that may differ next to discontinuities. In touching glass light is caught for long, and the two
 # pictures are of chaotic paths there: largest observed 0.035. Others: 0.0004.
@@ -102,7 +101,11 @@ def test_float_pictures_are_those_of_double(name: str, scale: float) -> None:
         assert is_explained(scene, cam, depth, int(x), int(y), REACHES.get(name, REACH)), (x, y)
 
 
-def sampled(object_id: np.ndarray, rng: np.random.Generator, lowest: int = -1) -> list[tuple[int, int]]:
+# How many pixels of each picture are checked exactly: half of them on outlines.
+few_or_many = pytest.mark.parametrize("samples", [16, pytest.param(600, marks=pytest.mark.soak)])
+
+
+def sampled(object_id: np.ndarray, rng: np.random.Generator, count: int, lowest: int = -1) -> list[tuple[int, int]]:
     """Pixels (y, x) with ids from `lowest` up: half of them anywhere, half next to another object."""
     edge = np.zeros(object_id.shape, bool)
     edge[:, 1:] |= object_id[:, 1:] != object_id[:, :-1]
@@ -111,19 +114,20 @@ def sampled(object_id: np.ndarray, rng: np.random.Generator, lowest: int = -1) -
     for where in (np.ones_like(edge), edge):
         pixels = np.argwhere(where & (object_id >= lowest))
         if len(pixels):
-            chosen += [(int(y), int(x)) for y, x in pixels[rng.choice(len(pixels), SAMPLES // 2)]]
+            chosen += [(int(y), int(x)) for y, x in pixels[rng.choice(len(pixels), count // 2)]]
     return chosen
 
 
 @all_scales(ANALYTIC)
-def test_exact_arithmetic_sees_the_same_objects_at_the_same_distances(name: str, scale: float) -> None:
+@few_or_many
+def test_exact_arithmetic_sees_the_same_objects_at_the_same_distances(name: str, scale: float, samples: int) -> None:
     scene, cam = hard(name, scale)
     assert all(is_known(item.shape) for item in scene.objects)
     seen = core_render(scene, cam).object_id
     rng = np.random.default_rng(1)
     exactly, origins, directions = ExactScene(scene), *cam.rays()
     near_a_tie = 0
-    for y, x in sampled(seen, rng):
+    for y, x in sampled(seen, rng, samples):
         o, d = origins[y, x], directions[y, x]
         hit = scene.intersect([o], [d])[0]
         assert hit["object_id"] == seen[y, x]
@@ -135,18 +139,19 @@ def test_exact_arithmetic_sees_the_same_objects_at_the_same_distances(name: str,
         others = {exactly.first(moved(rng, o, ULPS * UNIT * reach), moved(rng, d, ULPS * UNIT))[0] for _ in range(64)}
         assert seen[y, x] in others, (y, x, seen[y, x], found)
         near_a_tie += 1
-    assert near_a_tie <= SAMPLES // 4
+    assert near_a_tie <= samples // 4
 
 
 @all_scales(ANALYTIC)
-def test_exact_arithmetic_sees_the_same_shadows(name: str, scale: float) -> None:
+@few_or_many
+def test_exact_arithmetic_sees_the_same_shadows(name: str, scale: float, samples: int) -> None:
     """No light leaks, no surface shadows itself, shadows begin at contacts."""
     scene, cam = hard(name, scale)
     frame = rb.render(scene, cam, max_depth=1)
     rng = np.random.default_rng(2)
     exactly, lamps = ExactScene(scene), {lamp.id: lamp.light for lamp in scene.lights}
     checked = near_a_tie = 0
-    for y, x in sampled(frame.object_id, rng, lowest=0):
+    for y, x in sampled(frame.object_id, rng, samples, lowest=0):
         tree = frame.explain(x, y).tree
         o, d = tree["origin"], tree["direction"]
         found, t = exactly.first(o, d)
@@ -163,4 +168,4 @@ def test_exact_arithmetic_sees_the_same_shadows(name: str, scale: float) -> None
                     assert lit in tries, (y, x, verdict)
                     near_a_tie += 1
     assert near_a_tie <= max(2, checked // 8)
-    assert checked >= (4 if scene.lights and name != "critical-angle" else 0)
+    assert checked >= (4 if scene.lights and name not in ("critical-angle", "touching-boxes") else 0)

@@ -276,6 +276,28 @@ def test_every_ray_from_inside_meets_the_mesh(name: str, scale: float) -> None:
     assert (frame.object_id == 0).mean() > 0.5
 
 
+@all_scales(["far-mesh"])
+def test_a_mesh_shades_itself_at_its_edges_only(name: str, scale: float) -> None:
+    """Faces see all of the room: one that hides the light from another does so within rounding of their edge."""
+    scene, cam = hard(name, scale)
+    frame = rb.render(scene, cam.replace(width=193, height=145))
+    mesh = scene.objects[0].shape
+    step = float(np.spacing(np.float32(np.abs(mesh.bounds).max())))
+    hidden = blocked = 0
+    for y, x in np.argwhere((frame.object_id == 0) & (frame.image[..., 0] < 0.25)):
+        tree = frame.explain(int(x), int(y)).tree
+        (light,) = tree["lights"]
+        blocked += 1
+        if light["verdict"] != "lit" and light["blocker"] <= 0:
+            corners = np.asarray(mesh.vertices, float)[np.asarray(mesh.faces)[tree["face_id"]]]
+            along = np.roll(corners, -1, axis=0) - corners
+            across = np.cross(np.array(tree["point"]) - corners, along)
+            assert (np.linalg.norm(across, axis=1) / np.linalg.norm(along, axis=1)).min() <= 2 * step
+            hidden += 1
+    assert blocked > 300
+    assert hidden <= 0.01 * 193 * 145
+
+
 @all_scales(["needle-mesh"])
 def test_no_light_leaks_out_of_a_closed_mesh(name: str, scale: float) -> None:
     """The lamp inside alone: all that is seen from outside is black."""
