@@ -47,6 +47,7 @@ def test_the_ends_of_the_range_make_scenes(name: str) -> None:
     for scale in (CASES[name].lowest, CASES[name].highest, None):
         scene, cam = hard(name, scale)
         assert scene == hard(name, scale)[0]
+        assert rb.Scene.from_dict(scene.to_dict()) == scene
         assert np.isfinite(core_render(scene, cam.replace(width=16, height=12)).image).all()
 
 

@@ -230,6 +230,47 @@ def test_unions_with_common_faces_have_no_inner_walls(name: str, scale: float) -
         assert np.linalg.norm(second["point"] - first["point"]) == pytest.approx(way * unit, rel=1e-3)
 
 
+def first_in_quadric(shape: rb.Shape, o: np.ndarray, d: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where rays enter {q <= 0} within the box, inf for none; and whether they are too near to missing it to tell."""
+    a, b, c, e, f, g, *rest = (float(x) for x in shape.coefficients)
+    square, linear, constant = np.array([[a, e / 2, g / 2], [e / 2, b, f / 2], [g / 2, f / 2, c]]), rest[:3], rest[3]
+    with np.errstate(all="ignore"):
+        walls = np.sort((np.array([shape.clip.min, shape.clip.max])[:, None] - o) / d, axis=0)
+        start, end = walls[0].max(axis=1), walls[1].min(axis=1)
+        p = o + d * start[:, None]  # from here numbers are small
+        qa, qb = ((d @ square) * d).sum(axis=1), ((p @ square) * d).sum(axis=1) + d @ linear / 2
+        qc = ((p @ square) * p).sum(axis=1) + p @ linear + constant
+        discriminant = qb * qb - qa * qc
+        sum_ = -qb - np.copysign(np.sqrt(np.maximum(discriminant, 0)), qb)
+        roots = np.sort(np.stack([sum_ / qa, qc / sum_]), axis=0)
+        inside = np.where((roots > 0) & (discriminant > 0), roots, np.inf).min(axis=0)
+        t = np.where(qc <= 0, 0, inside)
+        hit = (end > start) & (t <= end - start)
+        doubtful = (np.abs(end - start) < 1e-3) | (np.abs(t - (end - start)) < 1e-3)
+        doubtful |= ((np.abs(discriminant) < 1e-5) & ~(qc < -1e-5)) | (np.abs(qc) < 1e-5)
+    return np.where(hit, start + t, np.inf), doubtful & (end > start - 1e-3)
+
+
+@all_scales(["quadric-clip"])
+def test_clipped_quadrics_are_seen_where_they_are(name: str, scale: float) -> None:
+    scene, cam = hard(name, scale)
+    frame = render(scene, cam, name)
+    o, d = rays_of(cam)
+    ids, depth = frame.object_id.ravel(), frame.depth.ravel()
+    expected, doubtful = np.full(len(o), np.inf), np.zeros(len(o), bool)
+    for item in scene.objects[2:]:
+        t, unsure = first_in_quadric(item.shape, o - item.transform.matrix[:3, 3], d)
+        expected, doubtful = np.minimum(expected, t), doubtful | unsure
+        assert (ids == item.id).sum() > 20
+    ball = ids == 1  # it stands before them, in part
+    clear = ~doubtful & ~ball
+    assert ((ids >= 2) == np.isfinite(expected))[clear].all()
+    seen = clear & (ids >= 2)
+    assert np.abs(depth[seen] - expected[seen]).max() < 1e-4
+    assert seen.sum() > 300
+    assert clear.mean() > 0.8
+
+
 @all_scales(["rotation-chain"])
 def test_a_thousand_steps_come_back(name: str, scale: float) -> None:
     """Rounding moves an object by at most half a unit in the last place a step."""
