@@ -22,7 +22,7 @@ def test_all_names_are_there() -> None:
     assert sorted(rb.__all__) == sorted(NAMES)
     assert all(hasattr(rb, name) for name in NAMES)
     for owner, names in {
-        rb.scenes: ["museum", "three_spheres", "sphereflake", "walkthrough"],
+        rb.scenes: ["museum", "three_spheres", "sphereflake", "walkthrough", "hard_case"],
         rb.plot: ["path_map", "error_map"],
         rb.testing: ["assert_within_bound"],
     }.items():

@@ -24,8 +24,8 @@ ctx.prec = PRECISION
 
 
 def exact(values: Any) -> list[arb]:
-    """Floats as arbs, without rounding."""
-    return [arb(float(v)) for v in values]
+    """Floats as arbs, without rounding; arbs stay as they are."""
+    return [v if isinstance(v, arb) else arb(float(v)) for v in values]
 
 
 def dot(a: Any, b: Any) -> Any:
