@@ -105,7 +105,8 @@ std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec
         records[i].object_id = records[i].face_id = -1;
         float scale;
         const Ray<float> ray = user_ray(origins[i], directions[i], scale, i);
-        const Nearest<float> nearest = closest_hit(scene, ray);
+        const WideRay<float> wide(ray);
+        const Nearest<float> nearest = closest_hit(scene, wide);
         if (nearest.hit) fill_record(records[i], scene, nearest, ray, scale);
     });
     return records;
@@ -116,7 +117,7 @@ std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f>
     std::vector<std::uint8_t> blocked(origins.size());
     answer_all(origins.size(), watch, [&](std::size_t i) {
         if (origins[i] == targets[i]) return;
-        blocked[i] = is_blocked(scene, make_segment(origins[i], targets[i]), {}, nullptr);
+        blocked[i] = is_blocked(scene, WideRay<float>(make_segment(origins[i], targets[i])), {}, nullptr);
     });
     return blocked;
 }
@@ -128,7 +129,8 @@ ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, 
                      std::vector<std::int32_t>(count, -1), 0};
     const auto search = [&](std::size_t i) {
         float scale;
-        const Nearest<float> nearest = closest_hit(scene, user_ray(origins[i], directions[i], scale, i));
+        const Nearest<float> nearest =
+            closest_hit(scene, WideRay<float>(user_ray(origins[i], directions[i], scale, i)));
         if (!nearest.hit) return;
         hits.t[i] = nearest.t / scale;
         hits.object_id[i] = object_id(scene, nearest);
@@ -146,7 +148,7 @@ PrimaryHits primary_hits(const Snapshot& scene, const Camera& camera, int thread
     const auto search_row = [&](int y, int) {
         std::uint64_t found = 0;
         for (int x = 0; x < camera.width(); ++x)
-            found += closest_hit(scene, make_ray(camera.eye(), camera.direction<float>(x, y))).hit;
+            found += closest_hit(scene, WideRay<float>(make_ray(camera.eye(), camera.direction<float>(x, y)))).hit;
         hits += found;
     };
     const Stopwatch stopwatch;

@@ -60,16 +60,15 @@ struct SlabRay {
     T widening;
     int near_side[3];  // 0 where the ray enters slabs by their lower planes, 1 by their upper
 
+    // origin +- origin_error is rounded once: the error has to cover that too, where it is not zero.
     SlabRay(const Vec3<T>& origin, const Vec3<T>& origin_error, const Vec3<T>& direction, T widening_)
         : near_origin(origin), far_origin(origin), widening(widening_) {
         for (int axis = 0; axis < 3; ++axis) {
             reciprocal[axis] = T(1) / direction[axis];  // infinite where the direction is 0
             near_side[axis] = reciprocal[axis] < T(0);
-            if (!(origin_error[axis] > T(0))) continue;
-            const T below = next_float_down(origin[axis] - origin_error[axis]);
-            const T above = next_float_up(origin[axis] + origin_error[axis]);
-            near_origin[axis] = near_side[axis] ? below : above;
-            far_origin[axis] = near_side[axis] ? above : below;
+            const T error = near_side[axis] ? -origin_error[axis] : origin_error[axis];
+            near_origin[axis] = origin[axis] + error;
+            far_origin[axis] = origin[axis] - error;
         }
     }
     explicit SlabRay(const Ray<T>& ray) : SlabRay(ray.origin, {}, ray.direction, slab_widening<T>) {}

@@ -39,7 +39,7 @@ struct Range {
 
 class Builder {
   public:
-    Builder(std::span<const Box> boxes, const Bvh::Leaves& leaves, std::vector<BvhNode>& nodes)
+    Builder(std::span<const Box> boxes, const Bvh::Leaves& leaves, LargeArray<BvhNode>& nodes)
         : leaves_(leaves), nodes_(nodes) {
         items_.reserve(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -215,7 +215,7 @@ class Builder {
     }
 
     const Bvh::Leaves& leaves_;
-    std::vector<BvhNode>& nodes_;
+    LargeArray<BvhNode>& nodes_;
     std::vector<Item> items_;
     std::array<int, most_classes> capacity_{};
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raybound/geometry/box.h"
+#include "raybound/geometry/large_array.h"
 #include "raybound/numbers/pack.h"
 
 namespace raybound {
@@ -50,7 +51,7 @@ class Bvh {
     bool any(const SlabRay<T>& ray, T t_max, const Visit& visit) const;
 
   private:
-    std::vector<BvhNode> nodes_;
+    LargeArray<BvhNode> nodes_;
 };
 
 namespace bvh {
@@ -79,17 +80,13 @@ struct Entry {
     std::uint32_t child;
 };
 
-// Puts the crossed children on the stack, farthest first: the order in which it gives back the nearest.
+// Puts one more crossed child on the stack, among those since `begin`, which come farthest first: the order in which
+// the stack gives back the nearest.
 template <class T>
-inline void push_sorted(Entry<T>* stack, int& size, std::uint32_t crossed, const Pack<T>& near, const BvhNode& node) {
-    const int begin = size;
-    while (crossed != 0) {
-        const int k = take_lowest(crossed);
-        const Entry<T> entry{near[k], node.child[k]};
-        int at = size++;
-        for (; at > begin && stack[at - 1].near < entry.near; --at) stack[at] = stack[at - 1];
-        stack[at] = entry;
-    }
+inline void push_sorted(Entry<T>* stack, int begin, int& size, const Entry<T>& entry) {
+    int at = size++;
+    for (; at > begin && stack[at - 1].near < entry.near; --at) stack[at] = stack[at - 1];
+    stack[at] = entry;
 }
 
 }  // namespace bvh
@@ -97,23 +94,34 @@ inline void push_sorted(Entry<T>* stack, int& size, std::uint32_t crossed, const
 template <class T, class Visit>
 void Bvh::traverse(const SlabRay<T>& ray, T& t_max, const Visit& visit) const {
     if (nodes_.empty()) return;
+    const BvhNode* const nodes = nodes_.data();
     bvh::Entry<T> stack[bvh::stack_size];
     int size = 0;
     bvh::Entry<T> top{T(0), 0};
     for (;;) {
-        if (top.child & leaf_bit) {
-            visit(top.child & ~leaf_bit, top.near);
-        } else {
-            const BvhNode& node = nodes_[top.child];
+        while (!(top.child & leaf_bit)) {
+            const BvhNode& node = nodes[top.child];
             Pack<T> near;
-            const std::uint32_t crossed = bvh::crossed_children(node, ray, t_max, near);
-            if (std::has_single_bit(crossed)) {
-                const int k = std::countr_zero(crossed);
-                top = {near[k], node.child[k]};
-                continue;
-            }
-            bvh::push_sorted(stack, size, crossed, near, node);
+            std::uint32_t crossed = bvh::crossed_children(node, ray, t_max, near);
+            if (crossed == 0) goto next;
+            const auto take = [&]() -> bvh::Entry<T> {
+                const int k = bvh::take_lowest(crossed);
+                return {near[k], node.child[k]};
+            };
+            top = take();
+            if (crossed == 0) continue;  // one child or two are by far the most frequent
+            const bvh::Entry<T> second = take();
+            const bool swapped = second.near < top.near;
+            stack[size++] = swapped ? top : second;
+            top = swapped ? second : top;
+            if (crossed == 0) continue;
+            const int begin = size - 1;
+            bvh::push_sorted(stack, begin, size, top);
+            while (crossed != 0) bvh::push_sorted(stack, begin, size, take());
+            top = stack[--size];
         }
+        visit(top.child & ~leaf_bit, top.near);
+    next:
         do {
             if (size == 0) return;
             top = stack[--size];

@@ -44,6 +44,8 @@ struct MeshInstance {
     Affine placement;
 };
 
+inline bool is_sheet(const Leaf& leaf) { return leaf.kind == LeafKind::disk || leaf.kind == LeafKind::polygon; }
+
 enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection };
 
 // A node of a CSG expression: a leaf (index `first`) or `count` nodes that start at `first` in csg_children.

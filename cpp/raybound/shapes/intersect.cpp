@@ -12,7 +12,7 @@ Crossing<W> cross_leaf(const Geometry& geometry, std::uint32_t index, const Ray<
     const Span<W> span = leaf_span_ahead(geometry, geometry.leaves[index], ray);
     const W t = select(span.in_ahead, span.t_in, span.t_out);
     const int face = select(span.in_ahead, span.face_in, span.face_out);
-    return {t, index, face, 0, Mask<W>(span.hit & (span.in_ahead | span.out_ahead))};
+    return {t, index, face, 0, Mask<W>(span.hit & (span.in_ahead | span.out_ahead)), span.in_ahead};
 }
 
 template <class W>
@@ -23,9 +23,9 @@ Crossing<W> cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<W>
         for (const Boundary<W>* boundary : {&interval.in, &interval.out})
             if (boundary->ahead) {
                 const CsgNode& node = geometry.csg_nodes[boundary->node];
-                return {boundary->t, node.first, boundary->face, node.face_offset, true};
+                return {boundary->t, node.first, boundary->face, node.face_offset, true, boundary == &interval.in};
             }
-    return {infinity<W>, 0, 0, 0, Mask<W>(false)};
+    return {infinity<W>, 0, 0, 0, Mask<W>(false), Mask<W>(false)};
 }
 
 // From any point: the surface is no farther than a known point of the solid and the solid's size; near the apex of a
@@ -102,7 +102,7 @@ Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& prim
         return cross_mesh<T>(geometry, primitive.root, ray.wide, asking.t_max, asking.brute_force);
     if constexpr (!std::is_same_v<T, Wide<T>>)
         if (!asking.filtered && none(may_cross(geometry, geometry.leaves[primitive.root], ray.narrow)))
-            return {infinity<Wide<T>>, 0, 0, 0, false};
+            return {infinity<Wide<T>>, 0, 0, 0, false, false};
     return cross_leaf(geometry, primitive.root, ray.wide);
 }
 
@@ -175,16 +175,15 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
     const Vec3<W> rounding = absolute(Vec3<W>(hit.point) - exact);
     for (int i = 0; i < 3; ++i) hit.point_error[i] = round_up<T>(distance * abs(normal[i]) + rounding[i]);
     hit.normal = hit.shading = Vec3<T>(normal);
-    hit.entering = !(dot(ray.direction, normal) > W(0));
+    hit.entering = is_sheet(leaf) ? !(dot(ray.direction, normal) > W(0)) : crossing.entering;
     hit.uv = leaf_uv(geometry, leaf, crossing.face, hit.point);
     return hit;
 }
 
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
     if (primitive.is_csg) return false;
-    const LeafKind kind = geometry.leaves[primitive.root].kind;
-    if (kind == LeafKind::mesh) return false;
-    return outward || kind == LeafKind::disk || kind == LeafKind::polygon;
+    const Leaf& leaf = geometry.leaves[primitive.root];
+    return leaf.kind != LeafKind::mesh && (outward || is_sheet(leaf));
 }
 
 // The number types that rays are traced with today. (float filters and shades, double decides.)

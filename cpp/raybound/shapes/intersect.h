@@ -13,7 +13,7 @@ template <class T>
 struct WideRay {
     explicit WideRay(const Ray<T>& ray) : narrow(ray), wide(widen(ray)) {}
 
-    const Ray<T>& narrow;
+    Ray<T> narrow;
     Ray<Wide<T>> wide;
 };
 
@@ -25,6 +25,7 @@ struct Crossing {
     std::int32_t face;         // of the leaf
     std::int32_t face_offset;  // of the leaf's faces within the object
     Mask<T> hit;
+    Mask<T> entering;  // a solid, from outside
 };
 
 // What a search knows before it asks about a primitive.
@@ -44,9 +45,9 @@ template <class T>
 Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
                const Asking<T>& asking = {});
 
-// A hit with its error bounds. `entering`: the ray comes from outside, against the outward normal (asked in the wide
-// type: at a silhouette the rounded normal may say otherwise). The box point +- point_error holds a point of the
-// surface; t +- t_error holds the ray's crossing of it (derivation D3). `normal` is the outward unit normal, along
+// A hit with its error bounds. `entering`: the ray comes from outside. For solids that is a matter of which crossing it
+// is, not of the normal's sign, which rounding may turn at a silhouette. The box point +- point_error holds a point of
+// the surface; t +- t_error holds the ray's crossing of it (derivation D3). `normal` is the outward unit normal, along
 // which origins are moved; `shading` is the same, or interpolated between the vertices of a mesh, on the same side.
 template <class T>
 struct SurfacePoint {

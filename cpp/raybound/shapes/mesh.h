@@ -52,7 +52,7 @@ class MeshData {
     Box bounds_;
     float reach_ = 0;
     Bvh bvh_;
-    std::vector<TrianglePack> packs_;
+    LargeArray<TrianglePack> packs_;
 };
 
 }  // namespace raybound

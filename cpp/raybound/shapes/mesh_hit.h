@@ -38,24 +38,24 @@ struct MeshRay {
         return {to_local(frame, ray.origin), {flush(d.x), flush(d.y), flush(d.z)}};
     }
 
-    // How far T's origin is from the deciding type's, and as much as that type may err in telling on which side of an
-    // edge a ray passes: what it accepts, the slabs must not drop.
+    // How far T's origin is from the deciding type's (an ulp's half, and half as much again for the slabs' own
+    // rounding of it), and as much as that type may err in telling on which side of an edge a ray passes: what it
+    // accepts, the slabs must not drop.
     static Vec3<T> slab_error(const MeshData& mesh, const LocalPoint<W>& o) {
-        const W reach = max_component(absolute(o.y)) + W(mesh.reach());
-        Vec3<T> error;
-        for (int i = 0; i < 3; ++i)
-            error[i] = next_float_up(T(abs(o.y[i] - W(T(o.y[i]))) + o.error[i] + W(0x1p-44) * reach));
-        return error;
+        const Vec3<T> y = absolute(Vec3<T>(o.y));
+        const T off = T(max_component(o.error)) + T(0x1p-44) * (max_component(y) + T(mesh.reach()));
+        return y * gamma<T>(3) + Vec3<T>{off, off, off} * T(1.25f);
     }
 
-    MeshRay(const MeshData& mesh, const Line& line)
+    MeshRay(const MeshData& mesh, const Line& line) : MeshRay(line, slab_error(mesh, line.origin)) {}
+    MeshRay(const Line& line, const Vec3<T>& error)
         : origin(line.origin.y),
           direction(line.direction),
           origin_error(max_component(line.origin.error)),
           shear(direction),
           permuted_origin(shear.permuted(origin)),
-          slabs(Vec3<T>(origin), slab_error(mesh, line.origin), Vec3<T>(direction), rounded_slab_widening<T>),
-          packs(Vec3<T>(origin), Vec3<T>(direction), max_component(slab_error(mesh, line.origin))) {}
+          slabs(Vec3<T>(origin), error, Vec3<T>(direction), rounded_slab_widening<T>),
+          packs(Vec3<T>(origin), Vec3<T>(direction), max_component(error)) {}
 };
 
 template <class T>
@@ -114,7 +114,7 @@ inline Crossing<Wide<T>> cross_mesh(const Geometry& geometry, std::uint32_t inde
             if (!best.hit || found.rounded < best.rounded || found.face < best.face) best = found;
         }
     });
-    return {best.t, index, best.face, 0, best.hit};
+    return {best.t, index, best.face, 0, best.hit, false};
 }
 
 // Does any triangle block: certainly ahead, and certainly before `end`?

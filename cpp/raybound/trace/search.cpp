@@ -43,44 +43,41 @@ Departure departure(const Geometry& geometry, std::uint32_t primitive, bool outw
 }
 
 template <class T>
-Nearest<T> closest_hit(const Snapshot& scene, const Ray<T>& ray, Departure departed, Acceleration acceleration) {
+Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure departed, Acceleration acceleration) {
     const Geometry& geometry = scene.geometry();
-    const WideRay<T> wide(ray);
     const bool brute_force = acceleration == Acceleration::brute_force;
     Nearest<T> best;
     const auto visit = [&](std::uint32_t index, T entry, bool filtered) {
-        if (index != departed.primitive) consider(geometry, index, wide, entry, filtered, brute_force, best);
+        if (index != departed.primitive) consider(geometry, index, ray, entry, filtered, brute_force, best);
         return false;
     };
     if (!brute_force)
-        scene.accelerator().traverse(geometry, ray, best.t, visit);
+        scene.accelerator().traverse(geometry, ray.narrow, best.t, visit);
     else
-        visit_all(geometry, ray, best.t, visit);
-    best.ray = wide.wide;
+        visit_all(geometry, ray.narrow, best.t, visit);
     return best;
 }
 
 template <class T>
-bool is_blocked(const Snapshot& scene, const Ray<T>& ray, Departure departed, std::int32_t* blocker,
+bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed, std::int32_t* blocker,
                 Acceleration acceleration) {
     const Geometry& geometry = scene.geometry();
-    const WideRay<T> wide(ray);
     const bool brute_force = acceleration == Acceleration::brute_force;
-    const T reach = ray.has_target ? ray.t_max * T(1 + 0x1p-10) : infinity<T>;
+    const T reach = ray.narrow.has_target ? ray.narrow.t_max * T(1 + 0x1p-10) : infinity<T>;
     const auto visit = [&](std::uint32_t index, T, bool filtered) {
         if (index == departed.primitive) return false;
         const Primitive& primitive = geometry.primitives[index];
-        if (!blocks(geometry, primitive, wide, Asking<T>{filtered, brute_force})) return false;
+        if (!blocks(geometry, primitive, ray, Asking<T>{filtered, brute_force})) return false;
         if (blocker) *blocker = scene.objects()[primitive.object].id;
         return true;
     };
-    if (!brute_force) return scene.accelerator().any(geometry, ray, reach, visit);
-    return visit_all(geometry, ray, reach, visit);
+    if (!brute_force) return scene.accelerator().any(geometry, ray.narrow, reach, visit);
+    return visit_all(geometry, ray.narrow, reach, visit);
 }
 
-template Nearest<float> closest_hit(const Snapshot&, const Ray<float>&, Departure, Acceleration);
-template Nearest<double> closest_hit(const Snapshot&, const Ray<double>&, Departure, Acceleration);
-template bool is_blocked(const Snapshot&, const Ray<float>&, Departure, std::int32_t*, Acceleration);
-template bool is_blocked(const Snapshot&, const Ray<double>&, Departure, std::int32_t*, Acceleration);
+template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, Departure, Acceleration);
+template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, Departure, Acceleration);
+template bool is_blocked(const Snapshot&, const WideRay<float>&, Departure, std::int32_t*, Acceleration);
+template bool is_blocked(const Snapshot&, const WideRay<double>&, Departure, std::int32_t*, Acceleration);
 
 }  // namespace raybound

@@ -12,7 +12,6 @@ struct Nearest {
     T t = infinity<T>;  // the crossing's, rounded
     std::uint32_t primitive = 0;
     bool hit = false;
-    Ray<Wide<T>> ray{};  // as the deciding type sees it
 };
 
 // The primitive that a ray has left for good, and so is not asked about, if there is one.
@@ -25,12 +24,12 @@ Departure departure(const Geometry& geometry, std::uint32_t primitive, bool outw
 enum class Acceleration { bvh, brute_force };
 
 template <class T>
-Nearest<T> closest_hit(const Snapshot& scene, const Ray<T>& ray, Departure departed = {},
+Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure departed = {},
                        Acceleration acceleration = Acceleration::bvh);
 
 // Something opaque lies certainly between the ray's origin and its end; `blocker` (may be null) is told which object.
 template <class T>
-bool is_blocked(const Snapshot& scene, const Ray<T>& ray, Departure departed, std::int32_t* blocker,
+bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed, std::int32_t* blocker,
                 Acceleration acceleration = Acceleration::bvh);
 
 }  // namespace raybound

@@ -34,10 +34,11 @@ template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::radiance(const Ray<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return {};
-    const Nearest<T> nearest = closest_hit(scene_, ray, departed, settings_.acceleration);
+    const WideRay<T> wide(ray);
+    const Nearest<T> nearest = closest_hit(scene_, wide, departed, settings_.acceleration);
     Vec3<T> value(scene_.background());
     T t = infinity<T>;
-    if (nearest.hit) value = shade(ray, nearest, depth, record, &t);
+    if (nearest.hit) value = shade(wide, nearest, depth, record, &t);
     const std::int32_t object =
         nearest.hit ? scene_.objects()[scene_.geometry().primitives[nearest.primitive].object].id : -1;
     if (first) first->t = t, first->object = object;
@@ -54,9 +55,10 @@ Vec3<T> Tracer<T>::radiance(const Ray<T>& ray, Departure departed, int depth, Re
 
 template <class T>
 template <class Record>
-Vec3<T> Tracer<T>::shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth, Record record, T* t) {
+Vec3<T> Tracer<T>::shade(const WideRay<T>& wide, const Nearest<T>& nearest, int depth, Record record, T* t) {
     const Geometry& geometry = scene_.geometry();
-    const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, nearest.ray, false);
+    const Ray<T>& ray = wide.narrow;
+    const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, wide.wide, false);
     const Material& material = *scene_.objects()[geometry.primitives[nearest.primitive].object].material;
     const Vec3<T> diffuse = material.texture ? material.texture->lookup(hit.uv) : Vec3<T>(material.diffuse);
     const Shadable at{hit,
@@ -109,7 +111,7 @@ bool Tracer<T>::is_lit(const Shadable& at, const Light& light, const Vec3<T>& di
     const Vec3<T> origin = offset_origin(at.hit.point, at.hit.point_error, at.side);
     const bool directional = light.kind == LightKind::directional;
     const Ray<T> ray = directional ? make_ray(origin, direction) : make_segment(origin, Vec3<T>(light.position));
-    return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration);
+    return !is_blocked(scene_, WideRay<T>(ray), at.outer, blocker, settings_.acceleration);
 }
 
 // local + reflect L(R) + transmit L(T), in this order.

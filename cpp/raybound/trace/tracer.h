@@ -51,7 +51,7 @@ class alignas(64) Tracer {
     template <class Record>
     Vec3<T> radiance(const Ray<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first);
     template <class Record>
-    Vec3<T> shade(const Ray<T>& ray, const Nearest<T>& nearest, int depth, Record record, T* t);
+    Vec3<T> shade(const WideRay<T>& wide, const Nearest<T>& nearest, int depth, Record record, T* t);
     template <class Record>
     Vec3<T> direct_light(const Shadable& at, Record record);
     template <class Record>
