@@ -33,12 +33,12 @@ from .camera import Camera
 from .lights import DirectionalLight, Light, PointLight, SpotLight
 from .materials import Material, Texture
 from .scene import Scene
-from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Shape, Sphere, Transformed, Union
+from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Transformed, Union
 from .transform import Transform
 
 FORMAT, VERSION = "raybound scene", 1
 SHAPES: dict[str, type[Shape]] = {
-    cls.__name__: cls for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Union, Intersection, Transformed)
+    cls.__name__: cls for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Quadric, Union, Intersection, Transformed)
 }
 LIGHTS: dict[str, type[Light]] = {cls.__name__: cls for cls in (DirectionalLight, PointLight, SpotLight)}
 T = TypeVar("T")
@@ -252,6 +252,8 @@ def _shape(d: object, who: str) -> Shape:
     if cls is Transformed:
         arguments["shape"] = _shape(arguments["shape"], f"{who}.shape")
         arguments["transform"] = _make(who, Transform, arguments["transform"])
+    if cls is Quadric and "clip" in arguments:
+        arguments["clip"] = _shape(arguments["clip"], f"{who}.clip")
     made: Shape = _make(who, cls, **arguments)
     return made
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "raybound/shapes/unit_quadric.h"
+
 namespace raybound {
 
 namespace {
@@ -23,7 +25,7 @@ float placement_error(const Affine& placement, const Vec3d& p) {
 }
 
 LeafKind leaf_kind(ShapeKind kind) { return static_cast<LeafKind>(kind); }
-static_assert(static_cast<int>(LeafKind::polygon) == static_cast<int>(ShapeKind::polygon));
+static_assert(static_cast<int>(LeafKind::quadric) == static_cast<int>(ShapeKind::quadric));
 
 Mat3<double> absolute(const Mat3<double>& m) { return {absolute(m.row[0]), absolute(m.row[1]), absolute(m.row[2])}; }
 
@@ -110,6 +112,15 @@ void place_polygon(Geometry& geometry, Leaf& leaf, const Shape& shape, const Aff
     geometry.polygons.push_back(plane);
 }
 
+// The largest row sums of |A| |B| / R and of |A| |center|, which bound what the frame's rounding does (derivation D7).
+Quadric make_quadric(const Shape& shape, const Frame& frame, const Affine& unit) {
+    Quadric quadric = local_quadric(unit_quadric(shape), frame.radius);
+    const Mat3<double> size = absolute(frame.linear_wide);
+    quadric.stretch = norm_infinity(size * absolute(unit.linear)) / double(frame.radius);
+    quadric.center = max_component(size * absolute(frame.center_wide));
+    return quadric;
+}
+
 // Spheres under a similarity without rotation, and boxes under translation and scaling, need no frame.
 bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
     const bool sphere = shape.kind() == ShapeKind::sphere && is_scaled_identity(placement.linear);
@@ -143,6 +154,10 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
         if (frame.slope == 0 && leaf.kind == LeafKind::cone) leaf.kind = LeafKind::cylinder;
         leaf.surface_error = frame_surface_error(frame, unit);
         leaf.frame = std::int32_t(geometry.frames.size());
+        if (leaf.kind == LeafKind::quadric) {
+            leaf.polygon = std::uint32_t(geometry.quadrics.size());
+            geometry.quadrics.push_back(make_quadric(shape, frame, unit));
+        }
         geometry.frames.push_back(frame);
     }
     geometry.leaves.push_back(leaf);
@@ -193,7 +208,7 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
 std::size_t Geometry::bytes() const {
     return primitives.size() * sizeof(Primitive) + leaves.size() * sizeof(Leaf) + frames.size() * sizeof(Frame) +
            polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3f) +
-           csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
+           quadrics.size() * sizeof(Quadric) +            csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
 }
 
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {

@@ -6,8 +6,21 @@ namespace raybound {
 
 namespace {
 
+// The first boundary ahead of a quadric's one or two parts.
+template <class W>
+Crossing<W> cross_quadric(const Geometry& geometry, std::uint32_t index, const Ray<W>& ray) {
+    const Spans<W> spans = quadric_leaf_spans(geometry, geometry.leaves[index], ray);
+    for (int i = 0; i < spans.count; ++i) {
+        const Span<W>& span = spans.part[i];
+        if (span.in_ahead) return {span.t_in, index, span.face_in, 0, true};
+        if (span.out_ahead) return {span.t_out, index, span.face_out, 0, true};
+    }
+    return {infinity<W>, 0, 0, 0, Mask<W>(false)};
+}
+
 template <class W>
 Crossing<W> cross_leaf(const Geometry& geometry, std::uint32_t index, const Ray<W>& ray) {
+    if (geometry.leaves[index].kind == LeafKind::quadric) return cross_quadric(geometry, index, ray);
     const Span<W> span = leaf_span(geometry, geometry.leaves[index], ray);
     const W t = select(span.in_ahead, span.t_in, span.t_out);
     const int face = select(span.in_ahead, span.face_in, span.face_out);
@@ -48,10 +61,14 @@ template <class W>
 W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<W>& p, const Surface<W>& surface,
                    const Vec3<W>& normal) {
     const W squared = dot(surface.gradient, surface.gradient);
-    const W residual = abs(surface.form.value) + W(4) * surface.form.band;
+    const bool quadric = leaf.kind == LeafKind::quadric && face == 0;
+    const W residual = abs(surface.form.value) + W(4) * surface.form.band * (quadric ? quadric_margin<W> : W(1));
     const W bend = abs(leaf_surface(geometry, leaf, face, p, normal).curvature);
     if (residual * bend <= W(0x1p-11) * squared) return residual / sqrt(squared) * (W(1) + W(0x1p-10));
-    return distance_anywhere(geometry, leaf, face, p);
+    const W anywhere = distance_anywhere(geometry, leaf, face, p);
+    if (!quadric) return anywhere;
+    const W reach = W(2) * W(geometry.frames[std::size_t(leaf.frame)].inverse_norm);
+    return minimum(anywhere, reach * quadric_distance(geometry.quadrics[leaf.polygon], surface.form, residual));
 }
 
 // A point of the wide type on a face, and what is known there.

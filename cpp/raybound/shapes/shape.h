@@ -17,6 +17,7 @@ enum class ShapeKind : std::uint8_t {
     cone,
     disk,
     polygon,
+    quadric,
     csg_union,
     csg_intersection,
     transformed
@@ -34,6 +35,7 @@ class Shape {
     static ShapePointer cone(const Vec3f& base, const Vec3f& apex, float radius, float top_radius);
     static ShapePointer disk(const Vec3f& center, const Vec3f& normal, float radius);
     static ShapePointer polygon(std::vector<Vec3f> vertices);
+    static ShapePointer quadric(std::vector<float> coefficients, const Vec3f& lower, const Vec3f& upper);
     static ShapePointer combine(ShapeKind operation, std::vector<ShapePointer> parts);
     static ShapePointer transformed(ShapePointer shape, const Affine& transform);
 
@@ -43,6 +45,7 @@ class Shape {
     float radius() const { return radius_; }
     float top_radius() const { return top_radius_; }
     const std::vector<Vec3f>& vertices() const { return vertices_; }
+    const std::vector<float>& coefficients() const { return coefficients_; }  // of a quadric, A .. J
     const std::vector<ShapePointer>& parts() const { return parts_; }
     const Affine& transform() const { return transform_; }
 
@@ -57,6 +60,7 @@ class Shape {
     Vec3f first_, second_;
     float radius_ = 0, top_radius_ = 0;
     std::vector<Vec3f> vertices_;
+    std::vector<float> coefficients_;
     std::vector<ShapePointer> parts_;
     Affine transform_;
 };

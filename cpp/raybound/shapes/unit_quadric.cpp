@@ -1,0 +1,182 @@
+#include "raybound/shapes/unit_quadric.h"
+
+#include <queue>
+
+namespace raybound {
+
+namespace {
+
+// A sum of products of doubles with about 100 bits: q around a far box cancels (derivation D7).
+class LongSum {
+  public:
+    void add(double a, double b, double c) {
+        const double ab = a * b, ab_error = std::fma(a, b, -ab);
+        const double abc = ab * c, abc_error = std::fma(ab, c, -abc);
+        const double sum = high_ + abc, part = sum - high_;
+        low_ += (high_ - (sum - part)) + (abc - part) + abc_error + ab_error * c;
+        high_ = sum;
+        size_ += std::abs(abc);
+    }
+    double value() const { return high_ + low_; }
+    double size() const { return size_; }
+
+  private:
+    double high_ = 0, low_ = 0, size_ = 0;
+};
+
+// A sub-box of the cube, in the order of a bound.
+struct Cell {
+    Vec3d center, half;
+    double bound;
+    bool operator<(const Cell& other) const { return bound < other.bound; }
+};
+
+constexpr int most_cells = 4000;
+
+// What F does around a cell's centre: F = value + 2 g.e + e'Qe.
+struct Local {
+    double value;
+    Vec3d half_gradient;
+    Vec3d bend;  // rows of |Q| times the cell's half size
+};
+
+Local expand(const UnitQuadric& q, const Cell& cell) {
+    const Vec3d qz = q.form * cell.center;
+    const Mat3<double> size{absolute(q.form.row[0]), absolute(q.form.row[1]), absolute(q.form.row[2])};
+    return {dot(qz + q.linear * 2.0, cell.center) + q.constant, qz + q.linear, size * cell.half};
+}
+
+double margin(const UnitQuadric& q) { return 0x1p-44 * q.norm; }  // beyond all roundings of a value of F
+
+// F's least value over the cell, from below: squares with a positive coefficient only add.
+double least(const UnitQuadric& q, const Cell& cell, const Local& at) {
+    double squares = 0;
+    for (int i = 0; i < 3; ++i) squares += maximum(0.0, q.form.row[i][i]) * cell.half[i] * cell.half[i];
+    return at.value - 2 * dot(absolute(at.half_gradient), cell.half) - dot(at.bend, cell.half) + squares;
+}
+
+// The greatest u.z where F <= 0, from above: that of u.z - m F for any m >= 0, with the m that cancels the slopes best.
+double greatest(const UnitQuadric& q, const Cell& cell, const Local& at, const Vec3d& u) {
+    const double plain = dot(u, cell.center) + dot(absolute(u), cell.half);
+    const Vec3d g = at.half_gradient * 2.0;
+    const double m = dot(u, g) / dot(g, g);
+    if (!(m > 0) || !(m < 0x1p20)) return plain;
+    const double cut = dot(u, cell.center) + dot(absolute(u - g * m), cell.half) +
+                       m * (dot(at.bend, cell.half) + margin(q) - at.value);
+    return minimum(plain, cut);
+}
+
+// The two halves of a cell, cut across the axis that matters most.
+template <class Push>
+void split(const UnitQuadric& q, const Cell& cell, const Local& at, const Vec3d& u, Push push) {
+    const Vec3d weight = cell.half * (absolute(u) + (absolute(at.half_gradient) + at.bend) * (1 / q.norm));
+    const int axis = weight.x >= weight.y ? (weight.x >= weight.z ? 0 : 2) : (weight.y >= weight.z ? 1 : 2);
+    for (const double side : {-0.5, 0.5}) {
+        Cell part = cell;
+        part.half[axis] *= 0.5;
+        part.center[axis] += side * cell.half[axis];
+        push(part);
+    }
+}
+
+double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+// Any vector's Rayleigh quotient is at most the largest eigenvalue; repeated products with Q + shift come close to it.
+double largest_eigenvalue(const Mat3<double>& form, double sign, double shift) {
+    Vec3d v = normalize(Vec3d{1, 0.7, 0.4});
+    for (int i = 0; i < 200; ++i) v = normalize(form * v * sign + v * shift);
+    return maximum(0.0, sign * dot(v, form * v) - 0x1p-40 * shift);
+}
+
+}  // namespace
+
+UnitQuadric unit_quadric(const Shape& shape) {
+    const auto at = [&](int i) { return double(shape.coefficients()[std::size_t(i)]); };
+    const Vec3d lower(shape.first()), upper(shape.second());
+    const Vec3d m = (lower + upper) * 0.5, h = (upper - lower) * 0.5;
+    const double x2 = at(0), y2 = at(1), z2 = at(2), xy = at(3) / 2, yz = at(4) / 2, xz = at(5) / 2;
+    const Mat3<double> form{{x2, xy, xz}, {xy, y2, yz}, {xz, yz, z2}};
+    const Vec3d linear{at(6) / 2, at(7) / 2, at(8) / 2};
+    UnitQuadric q;
+    LongSum constant;
+    constant.add(at(9), 1, 1);
+    double largest = 0, lost = 0;
+    for (int i = 0; i < 3; ++i) {
+        LongSum slope;
+        slope.add(linear[i], h[i], 1);
+        constant.add(linear[i] * 2, m[i], 1);
+        for (int j = 0; j < 3; ++j) {
+            q.form.row[i][j] = form.row[i][j] * h[i] * h[j];
+            slope.add(form.row[i][j], m[j], h[i]);
+            constant.add(form.row[i][j], m[i], m[j]);
+            largest = maximum(largest, std::abs(q.form.row[i][j]));
+        }
+        q.linear[i] = slope.value();
+        largest = maximum(largest, std::abs(q.linear[i]));
+        lost += 2 * slope.size();
+    }
+    q.constant = constant.value();
+    largest = maximum(largest, std::abs(q.constant));
+    lost += constant.size();
+    const double scale = 1 / power_of_two_below(largest);
+    for (auto& row : q.form.row) row = row * scale;
+    q.linear = q.linear * scale;
+    q.constant *= scale;
+    q.norm = 2 * norm1(q.linear) + std::abs(q.constant) + lost * scale * 0x1p-47;
+    for (const auto& row : q.form.row) q.norm += norm1(row);
+    return q;
+}
+
+bool may_have_inside(const UnitQuadric& q) {
+    std::priority_queue<Cell> cells;
+    const auto push = [&](Cell cell) {
+        cell.bound = -least(q, cell, expand(q, cell));
+        if (cell.bound > margin(q)) cells.push(cell);
+    };
+    push({{}, {1, 1, 1}, 0});
+    for (int i = 0; i < most_cells && !cells.empty(); ++i) {
+        const Cell cell = cells.top();
+        cells.pop();
+        const Local at = expand(q, cell);
+        if (at.value < -margin(q)) return true;
+        split(q, cell, at, {}, push);
+    }
+    return !cells.empty();
+}
+
+double enclose_reach(const UnitQuadric& q, const Vec3d& u) {
+    const double whole = norm1(u), close = 0x1p-16 * whole;
+    double known = -whole;
+    std::priority_queue<Cell> cells;
+    const auto push = [&](Cell cell) {
+        const Local at = expand(q, cell);
+        if (least(q, cell, at) > margin(q)) return;
+        cell.bound = greatest(q, cell, at, u);
+        const Vec3d tip = cell.center + cell.half * Vec3d{sign_of(u.x), sign_of(u.y), sign_of(u.z)};
+        if (expand(q, {tip, {}, 0}).value <= 0) known = maximum(known, dot(u, tip));
+        if (at.value <= 0) known = maximum(known, dot(u, cell.center));
+        cells.push(cell);
+    };
+    push({{}, {1, 1, 1}, 0});
+    for (int i = 0; i < most_cells && !cells.empty(); ++i) {
+        const Cell cell = cells.top();
+        if (cell.bound <= known + close) break;
+        cells.pop();
+        split(q, cell, expand(q, cell), u * (1 / whole), push);
+    }
+    return cells.empty() ? whole : minimum(whole, cells.top().bound);
+}
+
+Quadric local_quadric(const UnitQuadric& q, double radius) {
+    Quadric local;
+    local.form = q.form;
+    local.linear = q.linear * radius;
+    local.constant = q.constant * radius * radius;
+    local.norm = q.norm;
+    local.radius = radius;
+    local.rise = largest_eigenvalue(q.form, 1, q.norm);
+    local.fall = largest_eigenvalue(q.form, -1, q.norm);
+    return local;
+}
+
+}  // namespace raybound
