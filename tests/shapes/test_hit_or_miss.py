@@ -9,10 +9,11 @@ import raybound as rb
 
 
 def depth_of(shape: rb.Shape, points: np.ndarray, margin: float) -> np.ndarray:
-    """Which points have all eight corners of a cube of half width `margin` inside the shape, which is convex."""
+    """Which points have themselves and all eight corners of a cube of half width `margin` inside the shape."""
     leaf = build(shape, np.float64).leaves[0]
     deep = np.full(len(points), True)
-    for corner in np.stack(np.meshgrid(*[[-1, 1]] * 3), axis=-1).reshape(-1, 3):
+    corners = np.stack(np.meshgrid(*[[-1, 1]] * 3), axis=-1).reshape(-1, 3)
+    for corner in [*corners, np.zeros(3)]:
         columns = list((points + margin * corner).T)
         forms = leaf.along(columns, [np.zeros(len(points))] * 3)
         deep &= np.all([form[0] <= 0 for form in forms], axis=0)

@@ -8,12 +8,12 @@ import numpy as np
 
 import raybound as rb
 
-from .support_shapes import SOLIDS, Rng, affine, transform_about, unit
+from .support_shapes import QUADRICS, SOLIDS, Rng, affine, transform_about, unit
 
 
 def free_solid(rng: Rng) -> rb.Shape:
-    kind = list(SOLIDS)[rng.integers(len(SOLIDS))]
-    solid = SOLIDS[kind](rng, rng.uniform(0.5, 1.5), rng.normal(size=3) * 0.5)
+    makers = [*SOLIDS.values(), *QUADRICS.values()]
+    solid = makers[rng.integers(len(makers))](rng, rng.uniform(0.5, 1.5), rng.normal(size=3) * 0.5)
     if rng.random() < 0.4:
         solid = solid.transformed(transform_about(affine(rng, stretch=1.5), np.zeros(3), rng.normal(size=3) * 0.3))
     return solid

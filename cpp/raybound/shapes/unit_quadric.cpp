@@ -145,7 +145,7 @@ bool may_have_inside(const UnitQuadric& q) {
 }
 
 double enclose_reach(const UnitQuadric& q, const Vec3d& u) {
-    const double whole = norm1(u), close = 0x1p-16 * whole;
+    const double whole = norm1(u), close = 0x1p-36 * whole;
     double known = -whole;
     std::priority_queue<Cell> cells;
     const auto push = [&](Cell cell) {
