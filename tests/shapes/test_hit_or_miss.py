@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 from tests.support.support_oracle import build, first_change
-from tests.support.support_shapes import SOLID_KINDS, Rng, f32, make, unit
+from tests.support.support_shapes import HOLLOW_KINDS, SOLID_KINDS, Rng, f32, make, unit
 
 import raybound as rb
+
+STAR_KINDS = [kind for kind in SOLID_KINDS if kind not in HOLLOW_KINDS]  # scaled up they hold themselves
 
 
 def depth_of(shape: rb.Shape, points: np.ndarray, margin: float) -> np.ndarray:
@@ -45,7 +47,7 @@ def test_rays_through_the_middle_hit(kind: str, distance: float, rays: int) -> N
 
 
 @pytest.mark.parametrize("distance", [2, 100, 1e4])
-@pytest.mark.parametrize("kind", SOLID_KINDS)
+@pytest.mark.parametrize("kind", STAR_KINDS)
 def test_rays_beside_a_solid_miss(kind: str, distance: float) -> None:
     """Rays that miss the solid when it is a tenth larger, by the oracle."""
     rng = np.random.default_rng(SOLID_KINDS.index(kind) + 7)

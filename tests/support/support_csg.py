@@ -1,4 +1,4 @@
-"""Random nested CSG expressions."""
+"""Random nested CSG expressions, and solids against point membership along rays."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import numpy as np
 
 import raybound as rb
 
+from .support_hits import Tally, explained
+from .support_oracle import Found, build, first_change
 from .support_shapes import QUADRICS, SOLIDS, Rng, affine, transform_about, unit
 
 
@@ -46,3 +48,27 @@ def expression(rng: Rng, depth: int, *, grid: bool) -> rb.Shape:
 def is_thick(shape: rb.Shape) -> bool:
     """Has it an inside, as far as its bounds tell?"""
     return bool((shape.bounds[1] > shape.bounds[0]).all())
+
+
+def close(found: Found | None, hit: np.void) -> bool:
+    """The first change of membership is the hit: the same face, within the error of t."""
+    if found is None or not hit["hit"]:
+        return (found is None) == (not hit["hit"])
+    return hit["face_id"] in found.faces and abs(float(found.t) - hit["t"]) <= max(
+        1.001 * hit["t_error"], 1e-6 * hit["t"]
+    )
+
+
+def check_expression(tally: Tally, shape: rb.Shape, origins: np.ndarray, directions: np.ndarray) -> None:
+    model = build(shape)
+    for o, d, hit in zip(origins, directions, rb.intersect(shape, origins, directions)):
+        found = first_change(model, o, d)
+        tally.counts["rays"] += 1
+        tally.counts["hits"] += bool(hit["hit"])
+        tally.counts["from inside"] += found is not None and found.inside
+        if close(found, hit):
+            continue
+        if explained(model, o, d, lambda f, h=hit: close(f, h)):
+            tally.counts["within rounding"] += 1
+        else:
+            tally.fail("wrong", shape, o, d, found, hit)

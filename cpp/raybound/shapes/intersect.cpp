@@ -64,11 +64,11 @@ W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const V
     const bool quadric = leaf.kind == LeafKind::quadric && face == 0;
     const W residual = abs(surface.form.value) + W(4) * surface.form.band * (quadric ? quadric_margin<W> : W(1));
     const W bend = abs(leaf_surface(geometry, leaf, face, p, normal).curvature);
-    if (residual * bend <= W(0x1p-11) * squared) return residual / sqrt(squared) * (W(1) + W(0x1p-10));
-    const W anywhere = distance_anywhere(geometry, leaf, face, p);
-    if (!quadric) return anywhere;
+    const W distance = residual * bend <= W(0x1p-11) * squared ? residual / sqrt(squared) * (W(1) + W(0x1p-10))
+                                                               : distance_anywhere(geometry, leaf, face, p);
+    if (!quadric) return distance;
     const W reach = W(2) * W(geometry.frames[std::size_t(leaf.frame)].inverse_norm);
-    return minimum(anywhere, reach * quadric_distance(geometry.quadrics[leaf.polygon], surface.form, residual));
+    return minimum(distance, reach * quadric_distance(geometry.quadrics[leaf.polygon], surface.form, residual));
 }
 
 // A point of the wide type on a face, and what is known there.

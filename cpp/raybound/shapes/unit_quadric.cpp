@@ -37,39 +37,50 @@ constexpr int most_cells = 4000;
 struct Local {
     double value;
     Vec3d half_gradient;
-    Vec3d bend;  // rows of |Q| times the cell's half size
+    Vec3d bend;   // rows of |Q| times the cell's half size
+    double fall;  // e'Qe is no less than minus this: squares with a positive coefficient only add
 };
 
 Local expand(const UnitQuadric& q, const Cell& cell) {
     const Vec3d qz = q.form * cell.center;
     const Mat3<double> size{absolute(q.form.row[0]), absolute(q.form.row[1]), absolute(q.form.row[2])};
-    return {dot(qz + q.linear * 2.0, cell.center) + q.constant, qz + q.linear, size * cell.half};
+    const Vec3d bend = size * cell.half;
+    double squares = 0;
+    for (int i = 0; i < 3; ++i) squares += maximum(0.0, q.form.row[i][i]) * cell.half[i] * cell.half[i];
+    return {dot(qz + q.linear * 2.0, cell.center) + q.constant, qz + q.linear, bend, dot(bend, cell.half) - squares};
 }
 
 double margin(const UnitQuadric& q) { return 0x1p-44 * q.norm; }  // beyond all roundings of a value of F
 
-// F's least value over the cell, from below: squares with a positive coefficient only add.
-double least(const UnitQuadric& q, const Cell& cell, const Local& at) {
-    double squares = 0;
-    for (int i = 0; i < 3; ++i) squares += maximum(0.0, q.form.row[i][i]) * cell.half[i] * cell.half[i];
-    return at.value - 2 * dot(absolute(at.half_gradient), cell.half) - dot(at.bend, cell.half) + squares;
+// F's least value over the cell, from below.
+double least(const Cell& cell, const Local& at) {
+    return at.value - 2 * dot(absolute(at.half_gradient), cell.half) - at.fall;
 }
 
-// The greatest u.z where F <= 0, from above: that of u.z - m F for any m >= 0, with the m that cancels the slopes best.
-double greatest(const UnitQuadric& q, const Cell& cell, const Local& at, const Vec3d& u) {
-    const double plain = dot(u, cell.center) + dot(absolute(u), cell.half);
+// The greatest u.z where F <= 0, from above: that of u.z - m F for any m >= 0. The m that cancel a component of the
+// slope are the best ones, where the solid ends at a face of the cube too.
+struct Greatest {
+    double bound;
+    Vec3d slope, weight;  // of u.z - m F; how much each axis widens the bound
+};
+
+Greatest greatest(const UnitQuadric& q, const Cell& cell, const Local& at, const Vec3d& u) {
     const Vec3d g = at.half_gradient * 2.0;
-    const double m = dot(u, g) / dot(g, g);
-    if (!(m > 0) || !(m < 0x1p20)) return plain;
-    const double cut = dot(u, cell.center) + dot(absolute(u - g * m), cell.half) +
-                       m * (dot(at.bend, cell.half) + margin(q) - at.value);
-    return minimum(plain, cut);
+    const Vec3d steep = (absolute(g) + at.bend) * (norm1(u) / q.norm);
+    Greatest found{dot(absolute(u), cell.half), u, absolute(u) + steep};
+    for (const double m : {u.x / g.x, u.y / g.y, u.z / g.z, dot(u, g) / dot(g, g)}) {
+        const Vec3d slope = u - g * m;
+        const double bound = dot(absolute(slope), cell.half) + m * (at.fall + margin(q) - at.value);
+        if (m > 0 && bound < found.bound) found = {bound, slope, absolute(slope) + at.bend * m + steep};
+    }
+    found.bound += dot(u, cell.center);
+    found.weight = found.weight * cell.half;
+    return found;
 }
 
 // The two halves of a cell, cut across the axis that matters most.
 template <class Push>
-void split(const UnitQuadric& q, const Cell& cell, const Local& at, const Vec3d& u, Push push) {
-    const Vec3d weight = cell.half * (absolute(u) + (absolute(at.half_gradient) + at.bend) * (1 / q.norm));
+void split(const Cell& cell, const Vec3d& weight, Push push) {
     const int axis = weight.x >= weight.y ? (weight.x >= weight.z ? 0 : 2) : (weight.y >= weight.z ? 1 : 2);
     for (const double side : {-0.5, 0.5}) {
         Cell part = cell;
@@ -130,7 +141,7 @@ UnitQuadric unit_quadric(const Shape& shape) {
 bool may_have_inside(const UnitQuadric& q) {
     std::priority_queue<Cell> cells;
     const auto push = [&](Cell cell) {
-        cell.bound = -least(q, cell, expand(q, cell));
+        cell.bound = -least(cell, expand(q, cell));
         if (cell.bound > margin(q)) cells.push(cell);
     };
     push({{}, {1, 1, 1}, 0});
@@ -139,22 +150,24 @@ bool may_have_inside(const UnitQuadric& q) {
         cells.pop();
         const Local at = expand(q, cell);
         if (at.value < -margin(q)) return true;
-        split(q, cell, at, {}, push);
+        split(cell, cell.half * (absolute(at.half_gradient) + at.bend), push);
     }
     return !cells.empty();
 }
 
 double enclose_reach(const UnitQuadric& q, const Vec3d& u) {
-    const double whole = norm1(u), close = 0x1p-36 * whole;
+    const double whole = norm1(u), close = 0x1p-20 * whole;
     double known = -whole;
     std::priority_queue<Cell> cells;
     const auto push = [&](Cell cell) {
         const Local at = expand(q, cell);
-        if (least(q, cell, at) > margin(q)) return;
-        cell.bound = greatest(q, cell, at, u);
-        const Vec3d tip = cell.center + cell.half * Vec3d{sign_of(u.x), sign_of(u.y), sign_of(u.z)};
-        if (expand(q, {tip, {}, 0}).value <= 0) known = maximum(known, dot(u, tip));
-        if (at.value <= 0) known = maximum(known, dot(u, cell.center));
+        if (least(cell, at) > margin(q)) return;
+        const auto [bound, slope, weight] = greatest(q, cell, at, u);
+        cell.bound = bound;
+        const Vec3d tip = cell.center + cell.half * Vec3d{sign_of(slope.x), sign_of(slope.y), sign_of(slope.z)};
+        const Vec3d& g = at.half_gradient;
+        for (const Vec3d& z : {tip, cell.center, cell.center - g * (0.500001 * at.value / dot(g, g))})
+            if (max_component(absolute(z)) <= 1 && expand(q, {z, {}, 0}).value <= 0) known = maximum(known, dot(u, z));
         cells.push(cell);
     };
     push({{}, {1, 1, 1}, 0});
@@ -162,7 +175,7 @@ double enclose_reach(const UnitQuadric& q, const Vec3d& u) {
         const Cell cell = cells.top();
         if (cell.bound <= known + close) break;
         cells.pop();
-        split(q, cell, expand(q, cell), u * (1 / whole), push);
+        split(cell, greatest(q, cell, expand(q, cell), u).weight, push);
     }
     return cells.empty() ? whole : minimum(whole, cells.top().bound);
 }

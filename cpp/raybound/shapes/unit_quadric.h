@@ -19,7 +19,7 @@ UnitQuadric unit_quadric(const Shape& shape);
 // False only if F surely stays above what double's rounding can tell from 0: then nothing is inside.
 bool may_have_inside(const UnitQuadric& q);
 
-// An upper bound of u.z over the solid, within 2^-16 |u|_1 of it but for contacts along whole curves.
+// An upper bound of u.z over the solid, at most |u|_1: within 2^-20 |u|_1 but for very thin solids.
 double enclose_reach(const UnitQuadric& q, const Vec3d& u);
 
 // The quadric of a leaf whose frame has size `radius`.
