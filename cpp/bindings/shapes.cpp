@@ -88,8 +88,7 @@ void register_shapes(py::module_& m) {
         "quadric",
         [=](const Floats& coefficients, const Floats& lower, const Floats& upper) {
             const float* c = coefficients.data();
-            return result(
-                Shape::quadric({c, c + coefficients.size()}, to_vec3<float>(lower), to_vec3<float>(upper)));
+            return result(Shape::quadric({c, c + coefficients.size()}, to_vec3<float>(lower), to_vec3<float>(upper)));
         },
         "coefficients"_a, "min"_a, "max"_a);
     using Parts = std::vector<std::shared_ptr<Shape>>;

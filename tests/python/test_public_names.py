@@ -11,9 +11,10 @@ import pytest
 import raybound as rb
 
 NAMES = """
-    Sphere Box Cylinder Cone Disk Polygon Union Intersection Shape Transform Material Texture DirectionalLight
-    PointLight SpotLight Scene Object LightHandle load_scene Camera Renderer Tolerance render Frame Path Reason
-    next_float_up next_float_down gamma spawn_origin intersect testing report plot scenes TraceResult __version__
+    Sphere Box Cylinder Cone Disk Polygon Quadric Union Intersection Shape Transform Material Texture
+    DirectionalLight PointLight SpotLight Scene Object LightHandle load_scene Camera Renderer Tolerance render Frame
+    Path Reason next_float_up next_float_down gamma spawn_origin intersect testing report plot scenes TraceResult
+    __version__
 """.split()  # noqa: SIM905  a page of names reads better than a list of strings
 
 

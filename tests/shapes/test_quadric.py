@@ -276,7 +276,7 @@ def test_bounds_are_those_of_the_solid_not_of_the_box() -> None:
     ],
 )
 def test_bad_coefficients(coefficients: Any, parts: tuple[str, ...]) -> None:
-    with pytest.raises(ValueError, match="^Quadric: coefficients must ") as caught:
+    with pytest.raises(ValueError, match=r"^Quadric: coefficients must ") as caught:
         rb.Quadric(coefficients)
     for part in parts:
         assert part in str(caught.value), str(caught.value)

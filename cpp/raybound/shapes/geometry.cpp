@@ -208,7 +208,8 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
 std::size_t Geometry::bytes() const {
     return primitives.size() * sizeof(Primitive) + leaves.size() * sizeof(Leaf) + frames.size() * sizeof(Frame) +
            polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3f) +
-           quadrics.size() * sizeof(Quadric) +            csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
+           quadrics.size() * sizeof(Quadric) + csg_nodes.size() * sizeof(CsgNode) +
+           csg_children.size() * sizeof(std::uint32_t);
 }
 
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {

@@ -27,9 +27,9 @@ struct Frame {
     double inverse_norm = 1;  // of A^-1: how far a local distance reaches in the world
 };
 
-// A primitive, convex but for quadrics. Without a frame it stands in world coordinates, placed in double: a sphere (first, radius), a box
-// (first, second), a polygon. surface_error bounds how far the surface that the leaf describes is from the one the user
-// described.
+// A primitive, convex but for quadrics. Without a frame it stands in world coordinates, placed in double: a sphere
+// (first, radius), a box (first, second), a polygon. surface_error bounds how far the surface that the leaf describes
+// is from the one the user described.
 struct Leaf {
     LeafKind kind = LeafKind::sphere;
     std::int32_t frame = -1;

@@ -8,8 +8,8 @@
 namespace raybound {
 
 struct Quadric {
-    Mat3<double> form;   // Q, the largest coefficient of F / R^2 about 1
-    Vec3d linear;        // R times what it is in the unit cube
+    Mat3<double> form;    // Q, the largest coefficient of F / R^2 about 1
+    Vec3d linear;         // R times what it is in the unit cube
     double constant = 0;  // R^2 times
     double radius = 1;
     double norm = 0;     // |F(y)| <= norm |y|^2 for |y| >= R, in the largest component
