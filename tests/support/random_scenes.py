@@ -59,10 +59,10 @@ def quadric(rng: Rng) -> rb.Shape:
     """Ellipsoids, hyperboloids, saddles, bowls and cones, turned, in a box around a point."""
     middle, half = np.array(point(rng)), size(rng)
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    signs = rng.choice([-1, 0, 1], 3) if rng.random() < 0.5 else rng.choice([-1, 1], 3)
+    signs = rng.choice([-1, 1], 3) * [1, *rng.choice([0, 1, 1], 2)]
     m = turn @ np.diag(signs * rng.uniform(0.5, 2, 3)) @ turn.T / half
     slope = rng.normal(size=3) * rng.choice([0, 0.5])
-    linear, constant = slope - 2 * m @ middle, middle @ m @ middle - slope @ middle - half * rng.uniform(0, 0.3)
+    linear, constant = slope - 2 * m @ middle, middle @ m @ middle - slope @ middle - half * rng.uniform(0.01, 0.3)
     coefficients = (*np.diag(m), 2 * m[0, 1], 2 * m[1, 2], 2 * m[0, 2], *linear, constant)
     return rb.Quadric(coefficients, rb.Box(middle - half, middle + half))
 
