@@ -142,7 +142,8 @@ class Quadric(Shape):
     `coefficients`: ten numbers (A, B, C, D, E, F, G, H, I, J), not all of A to I zero, in
     q = A x^2 + B y^2 + C z^2 + D xy + E yz + F xz + G x + H y + I z + J; `clip`: a Box; scene units. Face 0 is the
     quadric, faces 1 to 6 are the box's (-x, +x, -y, +y, -z, +z). On face 0 u is the longitude about the middle of the
-    box, from +x, and v the height in the box; the others carry (u, v) as a Box does. ValueError if nothing is inside.
+    box, from +x, and v the height in the box; the others carry (u, v) as a Box does. `bounds` are those of the solid,
+    wider by at most 1e-6 of the box but for very thin solids. ValueError if nothing is inside.
     """
 
     coefficients: tuple[float, ...]
