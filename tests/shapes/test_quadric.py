@@ -251,6 +251,24 @@ def test_offsets_of_quadrics() -> None:
     assert offsets.max() <= 4  # seen: 1
 
 
+def test_offsets_at_the_tips_of_thin_ellipsoids() -> None:
+    """Where the gradient is small and the radius of curvature below all errors of F: some ulps, not the size."""
+    rng = np.random.default_rng(1)
+    tips, worst = 0, 0.0
+    for _ in range(150):
+        shape = make("thin_ellipsoid", rng, 1.0, unit(rng))
+        low, high = shape.bounds
+        tip = (low + high) / 2 + [0, 0, (high - low)[2] / 2] + 10 ** rng.uniform(-9, -5, (200, 1)) * unit(rng, 200)
+        origins = f32(tip + 5 * unit(rng, 200))
+        hits = rb.intersect(shape, origins, f32(tip - origins))
+        hits = hits[hits["hit"]]
+        moved = as_ulps(np.abs(hits["next_origin"] - hits["point"]).max(axis=1), np.abs(shape.bounds).max())
+        tips += int((moved > 4).sum())
+        worst = max(worst, float(moved.max(initial=0)))
+    assert tips >= 500  # seen: 1964
+    assert worst <= 200, worst  # seen: 31
+
+
 def test_bounds_are_those_of_the_solid_not_of_the_box() -> None:
     close = 1e-5
     ball = rb.Quadric((1, 1, 1, 0, 0, 0, -2, 0, 0, 0.75), rb.Box((-5, -6, -7), (8, 9, 10)))

@@ -67,8 +67,10 @@ W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const V
     const W distance = residual * bend <= W(0x1p-11) * squared ? residual / sqrt(squared) * (W(1) + W(0x1p-10))
                                                                : distance_anywhere(geometry, leaf, face, p);
     if (!quadric) return distance;
-    const W reach = W(2) * W(geometry.frames[std::size_t(leaf.frame)].inverse_norm);
-    return minimum(distance, reach * quadric_distance(geometry.quadrics[leaf.polygon], surface.form, residual));
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    const Quadric& form = geometry.quadrics[leaf.polygon];
+    const W anyhow = quadric_distance(form, to_local(frame, p).y, surface.form, residual);
+    return minimum(distance, W(2) * W(frame.inverse_norm) * anyhow);
 }
 
 // A point of the wide type on a face, and what is known there.

@@ -16,6 +16,8 @@ struct Quadric {
     double stretch = 1;  // of the frame: the largest row sum of |A| |A^-1|, and of |A| |center|
     double center = 0;
     double rise = 0, fall = 0;  // lower bounds of the largest eigenvalue of Q and of minus the least, where positive
+    Vec3d inside;               // a point with F <= -depth, if that is positive
+    double depth = 0;
 };
 
 // A sign is read as one only if it is this many times beyond its error: what keeps a ray certain of its side all along
@@ -141,13 +143,17 @@ inline Surface<T> quadric_surface(const Quadric& s, const Vec3<T>& y, const Vec3
             dot(Mat3<T>(s.form) * d, d)};
 }
 
-// How far the quadric is from any point where |F| <= residual, if some direction is known to lead to it: along an
-// eigenvector F falls (or rises) at least as s^2 times the eigenvalue.
+// How far the quadric is from y, where |F| <= residual, by what leads to it wherever y is: along an eigenvector F
+// falls, or rises, at least as s^2 times the eigenvalue; toward a point inside at least as the chord does, if F is
+// convex.
 template <class T>
-inline T quadric_distance(const Quadric& s, const Banded<T>& form, T residual) {
-    const T fall(s.fall), rise(s.rise);
-    const T bend = select(form.value > form.band, fall, select(form.value < -form.band, rise, minimum(rise, fall)));
-    return select(bend > T(0), sqrt(residual / bend), infinity<T>);
+inline T quadric_distance(const Quadric& s, const Vec3<T>& y, const Banded<T>& form, T residual) {
+    const Vec3<T> inward = Vec3<T>(s.inside) - y;
+    const Mask<T> convex = (T(2) * residual < T(s.depth)) & (dot(Mat3<T>(s.form) * inward, inward) >= T(0));
+    const T chord = select(convex, length(inward) * (T(2) * residual / T(s.depth)), infinity<T>);
+    const T from_outside = minimum(chord, sqrt(residual / T(s.fall))), from_inside = sqrt(residual / T(s.rise));
+    const T surely = select(form.value > T(0), from_outside, from_inside);
+    return select(abs(form.value) > form.band, surely, maximum(from_outside, from_inside));
 }
 
 // The quadric: u the longitude about the middle of the box from +x, counter-clockwise seen from +z; v the height in the

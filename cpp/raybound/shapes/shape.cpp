@@ -192,7 +192,7 @@ ShapePointer Shape::quadric(std::vector<float> coefficients, const Vec3f& lower,
     shape->second_ = clip->second();
     shape->coefficients_ = std::move(coefficients);
     ShapePointer pointer(shape);
-    if (!may_have_inside(unit_quadric(*shape)))
+    if (!find_inside(unit_quadric(*shape)).possible)
         refuse("Quadric: coefficients must leave a solid within clip, got " + format_all(shape->coefficients()) +
                ", > 0 throughout the box from " + format(lower) + " to " + format(upper));
     return pointer;

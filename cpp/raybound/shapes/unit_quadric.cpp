@@ -138,7 +138,8 @@ UnitQuadric unit_quadric(const Shape& shape) {
     return q;
 }
 
-bool may_have_inside(const UnitQuadric& q) {
+Inside find_inside(const UnitQuadric& q) {
+    Inside inside;
     std::priority_queue<Cell> cells;
     const auto push = [&](Cell cell) {
         cell.bound = -least(cell, expand(q, cell));
@@ -149,10 +150,13 @@ bool may_have_inside(const UnitQuadric& q) {
         const Cell cell = cells.top();
         cells.pop();
         const Local at = expand(q, cell);
-        if (at.value < -margin(q)) return true;
+        const double depth = -at.value - margin(q);
+        if (depth > inside.depth) inside = {true, cell.center, depth};
+        if (cell.bound <= 2 * inside.depth) return inside;
         split(cell, cell.half * (absolute(at.half_gradient) + at.bend), push);
     }
-    return !cells.empty();
+    inside.possible = inside.depth > 0 || !cells.empty();
+    return inside;
 }
 
 double enclose_reach(const UnitQuadric& q, const Vec3d& u) {
@@ -187,6 +191,9 @@ Quadric local_quadric(const UnitQuadric& q, double radius) {
     local.constant = q.constant * radius * radius;
     local.norm = q.norm;
     local.radius = radius;
+    const Inside inside = find_inside(q);
+    local.inside = inside.point * radius;
+    local.depth = inside.depth * radius * radius;
     local.rise = largest_eigenvalue(q.form, 1, q.norm);
     local.fall = largest_eigenvalue(q.form, -1, q.norm);
     return local;

@@ -16,8 +16,14 @@ struct UnitQuadric {
 
 UnitQuadric unit_quadric(const Shape& shape);
 
-// False only if F surely stays above what double's rounding can tell from 0: then nothing is inside.
-bool may_have_inside(const UnitQuadric& q);
+// A point with F <= -depth < 0, about as deep as any; `possible` is false only if F surely stays above what double's
+// rounding can tell from 0: then nothing is inside.
+struct Inside {
+    bool possible = true;
+    Vec3d point;
+    double depth = 0;
+};
+Inside find_inside(const UnitQuadric& q);
 
 // An upper bound of u.z over the solid, at most |u|_1: within 2^-20 |u|_1 but for very thin solids.
 double enclose_reach(const UnitQuadric& q, const Vec3d& u);
