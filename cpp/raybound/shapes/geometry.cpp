@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "raybound/shapes/unit_quadric.h"
+
 namespace raybound {
 
 namespace {
@@ -126,6 +128,15 @@ void place_mesh(Geometry& geometry, Leaf& leaf, const Shape& shape, const Affine
     geometry.frames.push_back(frame);
 }
 
+// The largest row sums of |A| |B| / R and of |A| |center|, which bound what the frame's rounding does (derivation D7).
+Quadric make_quadric(const Shape& shape, const Frame& frame, const Affine& unit) {
+    Quadric quadric = local_quadric(unit_quadric(shape), frame.radius);
+    const Mat3<double> size = absolute(frame.linear_wide);
+    quadric.stretch = norm_infinity(size * absolute(unit.linear)) / double(frame.radius);
+    quadric.center = max_component(size * absolute(frame.center_wide));
+    return quadric;
+}
+
 // Spheres under a similarity without rotation, and boxes under translation and scaling, need no frame.
 bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
     const bool sphere = shape.kind() == ShapeKind::sphere && is_scaled_identity(placement.linear);
@@ -161,6 +172,10 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
         if (frame.slope == 0 && leaf.kind == LeafKind::cone) leaf.kind = LeafKind::cylinder;
         leaf.surface_error = frame_surface_error(frame, unit);
         leaf.frame = std::int32_t(geometry.frames.size());
+        if (leaf.kind == LeafKind::quadric) {
+            leaf.polygon = std::uint32_t(geometry.quadrics.size());
+            geometry.quadrics.push_back(make_quadric(shape, frame, unit));
+        }
         geometry.frames.push_back(frame);
     }
     geometry.leaves.push_back(leaf);
@@ -211,8 +226,8 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
 std::size_t Geometry::bytes() const {
     return primitives.size() * sizeof(Primitive) + leaves.size() * sizeof(Leaf) + frames.size() * sizeof(Frame) +
            polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3d) +
-           meshes.size() * sizeof(MeshInstance) + csg_nodes.size() * sizeof(CsgNode) +
-           csg_children.size() * sizeof(std::uint32_t);
+           meshes.size() * sizeof(MeshInstance) + quadrics.size() * sizeof(Quadric) +
+           csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
 }
 
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {

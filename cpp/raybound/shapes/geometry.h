@@ -6,10 +6,11 @@
 
 #include "raybound/shapes/mesh.h"
 #include "raybound/shapes/polygon.h"
+#include "raybound/shapes/quadric.h"
 
 namespace raybound {
 
-enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon, mesh };
+enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon, quadric, mesh };
 
 // The map y = A (x - center) from the world to a leaf's own coordinates, in which the shape has the size R, a power of
 // two near its size in the world. The *double* map is the truth; the float one approximates it within the errors that
@@ -26,13 +27,13 @@ struct Frame {
     double inverse_norm = 1;  // of A^-1: how far a local distance reaches in the world
 };
 
-// A convex primitive. Without a frame it stands in world coordinates, placed in double: a sphere (first, radius), a box
-// (first, second), a polygon. surface_error bounds how far the surface that the leaf describes is from the one the user
-// described.
+// A primitive, convex but for quadrics. Without a frame it stands in world coordinates, placed in double: a sphere
+// (first, radius), a box (first, second), a polygon. surface_error bounds how far the surface that the leaf describes
+// is from the one the user described.
 struct Leaf {
     LeafKind kind = LeafKind::sphere;
     std::int32_t frame = -1;
-    std::uint32_t polygon = 0;  // or mesh
+    std::uint32_t polygon = 0;  // index into polygons, quadrics or meshes
     float surface_error = 0;
     Vec3d first, second;
     double radius = 0;
@@ -71,6 +72,7 @@ struct Geometry {
     std::vector<PolygonPlane> polygons;
     std::vector<Vec3d> vertices;
     std::vector<MeshInstance> meshes;
+    std::vector<Quadric> quadrics;
     std::vector<CsgNode> csg_nodes;
     std::vector<std::uint32_t> csg_children;
 

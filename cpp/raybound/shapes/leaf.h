@@ -100,10 +100,18 @@ inline Span<T> leaf_span_ahead(const Geometry& geometry, const Leaf& leaf, const
     return leaf_span(geometry, leaf, ray);
 }
 
+// What a line has inside of a quadric, which need not be convex.
+template <class T>
+inline Spans<T> quadric_leaf_spans(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    return quadric_spans(geometry.quadrics[leaf.polygon], leaf_ray(geometry, leaf, ray));
+}
+
 // A cheap filter in T before the deciding type is asked: no only if the ray *certainly* does not meet the leaf's
 // quadric (derivation D2). Flat faces have none: their own box is filter enough.
 template <class T>
 inline Mask<T> may_cross(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    if (leaf.kind == LeafKind::quadric)
+        return !quadric_missed(geometry.quadrics[leaf.polygon], leaf_ray(geometry, leaf, ray));
     if (leaf.kind != LeafKind::sphere && leaf.kind != LeafKind::cylinder && leaf.kind != LeafKind::cone) return true;
     const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
     const T radius = leaf.frame >= 0 ? T(geometry.frames[std::size_t(leaf.frame)].radius) : T(leaf.radius);
@@ -164,7 +172,11 @@ inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int f
     if (leaf.frame >= 0) {
         const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
         const Mat3<T>& linear = frame_linear<T>(frame);
-        Surface<T> surface = framed_surface(leaf, frame, face, to_local(frame, p), linear * direction);
+        const LocalPoint<T> local = to_local(frame, p);
+        const Vec3<T> d = linear * direction;
+        Surface<T> surface = leaf.kind == LeafKind::quadric
+                                 ? quadric_surface(geometry.quadrics[leaf.polygon], local.y, d, face, local.error)
+                                 : framed_surface(leaf, frame, face, local, d);
         surface.gradient = transpose_times(linear, surface.gradient);
         return surface;
     }
@@ -209,7 +221,9 @@ inline UV<T> leaf_uv(const Geometry& geometry, const Leaf& leaf, int face, const
     }
     if (leaf.frame >= 0) {
         const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
-        return framed_uv(leaf, frame, face, to_local(frame, p).y);
+        const Vec3<T> y = to_local(frame, p).y;
+        if (leaf.kind == LeafKind::quadric) return quadric_uv(geometry.quadrics[leaf.polygon], y, face);
+        return framed_uv(leaf, frame, face, y);
     }
     if (leaf.kind == LeafKind::sphere) return sphere_uv(to_sphere(leaf, p).y, T(leaf.radius));
     return box_uv(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
