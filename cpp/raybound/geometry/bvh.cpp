@@ -225,6 +225,18 @@ class Builder {
 Bvh::Bvh(std::span<const Box> boxes, const Leaves& leaves) {
     if (boxes.empty()) return;
     Builder(boxes, leaves, nodes_).build();
+    nodes_.shrink_to_fit();
+}
+
+float Bvh::cost() const {
+    double area = 0;
+    for (const BvhNode& node : nodes_)
+        for (std::size_t k = 0; k < pack_width; ++k) {
+            const Vec3d size{double(node.plane[3][k]) - node.plane[0][k], double(node.plane[4][k]) - node.plane[1][k],
+                             double(node.plane[5][k]) - node.plane[2][k]};
+            if (size.x >= 0) area += size.x * size.y + size.y * size.z + size.z * size.x;
+        }
+    return float(area);
 }
 
 void Bvh::refit(std::uint32_t slot, const Box& leaf_box) {

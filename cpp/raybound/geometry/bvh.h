@@ -40,6 +40,9 @@ class Bvh {
     // Gives the leaf at a slot another box, and all nodes above it theirs.
     void refit(std::uint32_t slot, const Box& box);
 
+    // What a search costs, up to a factor: the area of all boxes. It grows as refitting loosens the tree.
+    float cost() const;
+
     // Calls visit(leaf, near) for each leaf whose box the ray crosses within [0, t_max], nearer ones first; `near` is
     // the entry into its box. visit may lower t_max. Boxes that begin exactly at t_max are visited: a tie has to be
     // settled by ids.

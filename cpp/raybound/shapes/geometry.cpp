@@ -146,13 +146,13 @@ bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
     leaf.first = placement.point(first);
     leaf.surface_error = placement_error(placement, first);
     if (sphere) {
-        leaf.radius = placement.linear.row[0].x * double(shape.radius());
+        leaf.second.x = placement.linear.row[0].x * double(shape.radius());
         leaf.surface_error += placement_error(placement, {double(shape.radius()), 0, 0});
     } else {
         leaf.second = placement.point(second);
         leaf.surface_error = maximum(leaf.surface_error, placement_error(placement, second));
     }
-    const double size = sphere ? leaf.radius : min_component(leaf.second - leaf.first);
+    const double size = sphere ? leaf.radius() : min_component(leaf.second - leaf.first);
     if (!(size >= 0.5 * double(least_size)))
         throw std::invalid_argument("Shape: transforms must keep sizes at least 2**-60, got " + format(size));
     return true;
@@ -230,17 +230,23 @@ std::size_t Geometry::bytes() const {
            csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
 }
 
-void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {
+void replace_primitive(Geometry& geometry, std::uint32_t index, const Shape& shape, const Affine& placement) {
     const auto first_leaf = std::uint32_t(geometry.leaves.size());
     Affine map = placement;
     const Shape& inner = strip_transforms(shape, map);
-    Primitive primitive;
-    primitive.object = object;
+    Primitive& primitive = geometry.primitives[index];
     primitive.is_csg = !inner.parts().empty();
     std::int32_t face = 0;
-    primitive.root = primitive.is_csg ? add_csg(geometry, inner, map, face) : add_leaf(geometry, inner, map);
+    primitive.root =
+        (primitive.is_csg ? add_csg(geometry, inner, map, face) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
     primitive.bounds = primitive_bounds(geometry, inner, map, first_leaf);
+}
+
+void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {
+    Primitive primitive;
+    primitive.object = object;
     geometry.primitives.push_back(primitive);
+    replace_primitive(geometry, std::uint32_t(geometry.primitives.size() - 1), shape, placement);
 }
 
 }  // namespace raybound

@@ -28,7 +28,7 @@ struct Frame {
 };
 
 // A primitive, convex but for quadrics. Without a frame it stands in world coordinates, placed in double: a sphere
-// (first, radius), a box (first, second), a polygon. surface_error bounds how far the surface that the leaf describes
+// (first, radius()), a box (first, second), a polygon. surface_error bounds how far the surface that the leaf describes
 // is from the one the user described.
 struct Leaf {
     LeafKind kind = LeafKind::sphere;
@@ -36,8 +36,10 @@ struct Leaf {
     std::uint32_t polygon = 0;  // index into polygons, quadrics or meshes
     float surface_error = 0;
     Vec3d first, second;
-    double radius = 0;
+
+    double radius() const { return second.x; }  // of a sphere
 };
+static_assert(sizeof(Leaf) == 64);
 
 // A mesh in its place; the data are the shape's.
 struct MeshInstance {
@@ -61,9 +63,10 @@ struct CsgNode {
 struct Primitive {
     Box bounds;
     std::uint32_t object = 0;
-    std::uint32_t root = 0;  // of leaves, or of CSG nodes
-    bool is_csg = false;
+    std::uint32_t root : 31 = 0;  // of leaves, or of CSG nodes
+    bool is_csg : 1 = false;
 };
+static_assert(sizeof(Primitive) == 32);
 
 struct Geometry {
     std::vector<Primitive> primitives;
@@ -82,7 +85,10 @@ struct Geometry {
     std::size_t bytes() const;
 };
 
-// Adds a placed shape as one primitive of `object`.
+// Adds a placed shape as one primitive of `object`. Throws std::invalid_argument if it cannot be placed so.
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement);
+
+// Gives a primitive another shape or place. What it was made of before stays behind, unused.
+void replace_primitive(Geometry& geometry, std::uint32_t primitive, const Shape& shape, const Affine& placement);
 
 }  // namespace raybound

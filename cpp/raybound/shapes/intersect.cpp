@@ -45,7 +45,7 @@ Crossing<W> cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<W>
 // cone, where the gradient vanishes, no farther than the apex.
 template <class W>
 W distance_anywhere(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<W>& p) {
-    if (leaf.frame < 0) return norm1(p - Vec3<W>(leaf.first)) + W(leaf.radius);
+    if (leaf.frame < 0) return norm1(p - Vec3<W>(leaf.first)) + W(leaf.radius());
     const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
     const LocalPoint<W> local = to_local(frame, p);
     const W radius(frame.radius), reach = W(2) * W(frame.inverse_norm);  // the norm is of components: sqrt(3) at most

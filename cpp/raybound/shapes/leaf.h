@@ -88,7 +88,7 @@ inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T
     }
     const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
     if (leaf.frame >= 0) return framed_span(leaf, geometry.frames[std::size_t(leaf.frame)], local);
-    if (leaf.kind == LeafKind::sphere) return sphere_span(local, T(leaf.radius));
+    if (leaf.kind == LeafKind::sphere) return sphere_span(local, T(leaf.radius()));
     return box_span(local, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
 }
 
@@ -96,7 +96,7 @@ inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T
 template <class T>
 inline Span<T> leaf_span_ahead(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
     if (leaf.kind == LeafKind::sphere && leaf.frame < 0)
-        return sphere_span_ahead(sphere_ray(Vec3<T>(leaf.first), ray.origin, ray.direction), T(leaf.radius));
+        return sphere_span_ahead(sphere_ray(Vec3<T>(leaf.first), ray.origin, ray.direction), T(leaf.radius()));
     return leaf_span(geometry, leaf, ray);
 }
 
@@ -114,7 +114,7 @@ inline Mask<T> may_cross(const Geometry& geometry, const Leaf& leaf, const Ray<T
         return !quadric_missed(geometry.quadrics[leaf.polygon], leaf_ray(geometry, leaf, ray));
     if (leaf.kind != LeafKind::sphere && leaf.kind != LeafKind::cylinder && leaf.kind != LeafKind::cone) return true;
     const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
-    const T radius = leaf.frame >= 0 ? T(geometry.frames[std::size_t(leaf.frame)].radius) : T(leaf.radius);
+    const T radius = leaf.frame >= 0 ? T(geometry.frames[std::size_t(leaf.frame)].radius) : T(leaf.radius());
     if (leaf.kind == LeafKind::sphere) return !certainly_missed(sphere_quadratic(local, radius));
     if (leaf.kind == LeafKind::cylinder) return !certainly_missed(cylinder_quadratic(local, radius));
     const Quadratic<T> q = cone_quadratic(local, radius, T(geometry.frames[std::size_t(leaf.frame)].slope));
@@ -182,7 +182,7 @@ inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int f
     }
     if (leaf.kind == LeafKind::sphere) {
         const LocalPoint<T> local = to_sphere(leaf, p);
-        return sphere_surface(local.y, direction, T(leaf.radius), local.error);
+        return sphere_surface(local.y, direction, T(leaf.radius()), local.error);
     }
     return box_surface(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second), Vec3<T>{});
 }
@@ -225,7 +225,7 @@ inline UV<T> leaf_uv(const Geometry& geometry, const Leaf& leaf, int face, const
         if (leaf.kind == LeafKind::quadric) return quadric_uv(geometry.quadrics[leaf.polygon], y, face);
         return framed_uv(leaf, frame, face, y);
     }
-    if (leaf.kind == LeafKind::sphere) return sphere_uv(to_sphere(leaf, p).y, T(leaf.radius));
+    if (leaf.kind == LeafKind::sphere) return sphere_uv(to_sphere(leaf, p).y, T(leaf.radius()));
     return box_uv(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
 }
 
