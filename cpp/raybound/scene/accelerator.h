@@ -21,7 +21,7 @@ struct SearchRay {
     }
 
     SlabRay<T> slabs;
-    Vec3<T> origin, direction;
+    const Vec3<T>&origin, &direction;
 
   private:
     std::optional<TrianglePackRay<T>> triangles_;
@@ -43,9 +43,10 @@ class Accelerator {
     bool update(const Geometry& geometry, std::uint32_t primitive);
 
     // Calls visit(primitive, entry, filtered) for the primitives whose own box the ray crosses within [0, t_max] and
-    // which it may meet; visit may lower t_max. `filtered`: the filter in T has been asked already.
+    // which it may meet; visit may lower t_max. The search begins at `from`, if that is given. `filtered`: the filter in T has been asked already.
     template <class T, class Visit>
-    void traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max, const Visit& visit) const;
+    void traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max, const Visit& visit,
+                  const Bvh::Frontier* from) const;
 
     // The same in any order, until visit(primitive, entry, filtered) returns true.
     template <class T, class Visit>
@@ -101,10 +102,12 @@ bool Accelerator::visit_leaf(const Geometry& geometry, std::uint32_t leaf, T nea
 }
 
 template <class T, class Visit>
-void Accelerator::traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max, const Visit& visit) const {
+void Accelerator::traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max, const Visit& visit,
+                           const Bvh::Frontier* from) const {
     SearchRay<T> search(ray);
-    bvh_.traverse(search.slabs, t_max,
-                  [&](std::uint32_t leaf, T near) { visit_leaf(geometry, leaf, near, search, t_max, visit); });
+    bvh_.traverse(
+        search.slabs, t_max,
+        [&](std::uint32_t leaf, T near) { visit_leaf(geometry, leaf, near, search, t_max, visit); }, from);
 }
 
 template <class T, class Visit>

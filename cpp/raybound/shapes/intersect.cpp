@@ -154,7 +154,7 @@ T crossing_error(const Geometry& geometry, const Crossing<Wide<T>>& crossing, co
 // of everything, so that the float normal may stand for the true one.
 template <class T>
 SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
-                                   bool with_t_error) {
+                                   Wanted wanted) {
     using W = Wide<T>;
     const Leaf& leaf = geometry.leaves[crossing.leaf];
     const BarycentricHit<W> at = barycentric_hit(geometry, leaf, crossing.face, ray);
@@ -167,19 +167,19 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
     }
     hit.normal = Vec3<T>(at.normal);
     hit.shading = Vec3<T>(at.shading);
-    hit.uv = {T(at.uv.u), T(at.uv.v)};
+    if (wanted.uv) hit.uv = {T(at.uv.u), T(at.uv.v)};
     hit.entering = !(dot(ray.direction, at.normal) > W(0));
     const Surface<W> surface = leaf_surface(geometry, leaf, crossing.face, at.point, ray.direction);
-    hit.t_error = with_t_error ? crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal) : T(0);
+    hit.t_error = wanted.t_error ? crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal) : T(0);
     return hit;
 }
 
 template <class T>
 SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
-                              bool with_t_error) {
+                              Wanted wanted) {
     using W = Wide<T>;
     const Leaf& leaf = geometry.leaves[crossing.leaf];
-    if (leaf.kind == LeafKind::mesh) return mesh_surface_point<T>(geometry, crossing, ray, with_t_error);
+    if (leaf.kind == LeafKind::mesh) return mesh_surface_point<T>(geometry, crossing, ray, wanted);
     const Polished<W> polished =
         polish(geometry, leaf, crossing.face, ray.origin + ray.direction * crossing.t, ray.direction);
     const Vec3<W>& exact = polished.point;
@@ -189,13 +189,13 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
 
     SurfacePoint<T> hit;
     hit.t = T(crossing.t);
-    hit.t_error = with_t_error ? crossing_error(geometry, crossing, ray, hit.t, polished, normal) : T(0);
+    hit.t_error = wanted.t_error ? crossing_error(geometry, crossing, ray, hit.t, polished, normal) : T(0);
     hit.point = Vec3<T>(exact);
     const Vec3<W> rounding = absolute(Vec3<W>(hit.point) - exact);
     for (int i = 0; i < 3; ++i) hit.point_error[i] = round_up<T>(distance * abs(normal[i]) + rounding[i]);
     hit.normal = hit.shading = Vec3<T>(normal);
     hit.entering = is_sheet(leaf) ? !(dot(ray.direction, normal) > W(0)) : crossing.entering;
-    hit.uv = leaf_uv(geometry, leaf, crossing.face, hit.point);
+    if (wanted.uv) hit.uv = leaf_uv(geometry, leaf, crossing.face, hit.point);
     return hit;
 }
 
@@ -212,7 +212,7 @@ template Crossing<double> first_crossing(const Geometry&, const Primitive&, cons
                                          const Asking<double>&);
 template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&);
 template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&);
-template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, bool);
-template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, bool);
+template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
+template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
 
 }  // namespace raybound

@@ -11,10 +11,17 @@ namespace raybound {
 // A ray as both types see it.
 template <class T>
 struct WideRay {
-    explicit WideRay(const Ray<T>& ray) : narrow(ray), wide(widen(ray)) {}
+    WideRay(const Vec3<T>& origin, const Vec3<T>& direction)
+        : narrow(make_ray(origin, direction)), wide(widen(narrow)) {}
+    explicit WideRay(const Ray<T>& ray) : narrow(ray), wide(widen(narrow)) {}
+    static WideRay segment(const Vec3<T>& origin, const Vec3<T>& target) { return {origin, target, true}; }
 
     Ray<T> narrow;
     Ray<Wide<T>> wide;
+
+  private:
+    WideRay(const Vec3<T>& origin, const Vec3<T>& target, bool)
+        : narrow(make_segment(origin, target)), wide(widen(narrow)) {}
 };
 
 // The first crossing of a primitive that certainly lies ahead of a ray's origin.
@@ -57,10 +64,14 @@ struct SurfacePoint {
     bool entering;
 };
 
-// Rendering needs no t_error: it is 0 unless asked for.
+// What not everybody wants to know, and is zero unless asked for.
+struct Wanted {
+    bool t_error = false, uv = false;
+};
+
 template <class T>
 SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
-                              bool with_t_error);
+                              Wanted wanted);
 
 // Once a ray has left a convex leaf outward (or a sheet on either side), it cannot meet it again.
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward);

@@ -54,7 +54,7 @@ struct MeshRay {
           origin_error(max_component(line.origin.error)),
           shear(direction),
           permuted_origin(shear.permuted(origin)),
-          slabs(Vec3<T>(origin), error, Vec3<T>(direction), rounded_slab_widening<T>),
+          slabs(Vec3<T>(origin), error, Vec3<T>(direction)),
           packs(Vec3<T>(origin), Vec3<T>(direction), max_component(error)) {}
 };
 

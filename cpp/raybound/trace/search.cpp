@@ -1,14 +1,16 @@
 #include "raybound/trace/search.h"
 
-#include <tuple>
+#include <utility>
 
 namespace raybound {
 
 namespace {
 
-template <class T>
-std::tuple<T, std::uint32_t, std::int32_t> rank(const Nearest<T>& hit, const Geometry& geometry) {
-    return {hit.t, geometry.primitives[hit.primitive].object, hit.crossing.face_offset + hit.crossing.face};
+// What settles a tie of t.
+template <class W>
+std::pair<std::uint32_t, std::int32_t> rank(const Crossing<W>& crossing, std::uint32_t primitive,
+                                            const Geometry& geometry) {
+    return {geometry.primitives[primitive].object, crossing.face_offset + crossing.face};
 }
 
 // Takes the primitive's crossing if it comes first. A crossing cannot lie before the entry into the primitive's box:
@@ -21,8 +23,12 @@ void consider(const Geometry& geometry, std::uint32_t index, const WideRay<T>& r
     if (!crossing.hit) return;
     const T t = maximum(T(crossing.t), entry);
     if (!(t < infinity<T>) || t > best.t) return;
-    const Nearest<T> found{crossing, t, index, true};
-    if (!best.hit || rank(found, geometry) < rank(best, geometry)) best = found;
+    if (best.hit && t == best.t && !(rank(crossing, index, geometry) < rank(best.crossing, best.primitive, geometry)))
+        return;
+    best.crossing = crossing;
+    best.t = t;
+    best.primitive = index;
+    best.hit = true;
 }
 
 // The brute-force loop over everything whose box is crossed: what the BVH must agree with.
@@ -43,7 +49,8 @@ Departure departure(const Geometry& geometry, std::uint32_t primitive, bool outw
 }
 
 template <class T>
-Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure departed, Acceleration acceleration) {
+Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure departed, Acceleration acceleration,
+                       const Bvh::Frontier* from) {
     const Geometry& geometry = scene.geometry();
     const bool brute_force = acceleration == Acceleration::brute_force;
     Nearest<T> best;
@@ -52,7 +59,7 @@ Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure d
         return false;
     };
     if (!brute_force)
-        scene.accelerator().traverse(geometry, ray.narrow, best.t, visit);
+        scene.accelerator().traverse(geometry, ray.narrow, best.t, visit, from);
     else
         visit_all(geometry, ray.narrow, best.t, visit);
     return best;
@@ -75,8 +82,8 @@ bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed
     return visit_all(geometry, ray.narrow, reach, visit);
 }
 
-template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, Departure, Acceleration);
-template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, Departure, Acceleration);
+template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, Departure, Acceleration, const Bvh::Frontier*);
+template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, Departure, Acceleration, const Bvh::Frontier*);
 template bool is_blocked(const Snapshot&, const WideRay<float>&, Departure, std::int32_t*, Acceleration);
 template bool is_blocked(const Snapshot&, const WideRay<double>&, Departure, std::int32_t*, Acceleration);
 

@@ -23,9 +23,10 @@ Departure departure(const Geometry& geometry, std::uint32_t primitive, bool outw
 
 enum class Acceleration { bvh, brute_force };
 
+// `from`: where the search may begin, for a ray of a bundle that it was found for.
 template <class T>
 Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure departed = {},
-                       Acceleration acceleration = Acceleration::bvh);
+                       Acceleration acceleration = Acceleration::bvh, const Bvh::Frontier* from = nullptr);
 
 // Something opaque lies certainly between the ray's origin and its end; `blocker` (may be null) is told which object.
 template <class T>

@@ -7,18 +7,19 @@ namespace raybound {
 // A hit, ready for light: N is turned toward the viewer V.
 template <class T>
 struct Tracer<T>::Shadable {
-    SurfacePoint<T> hit;
+    const SurfacePoint<T>& hit;
     const Material& material;
-    Vec3<T> side;  // the surface's own normal, turned toward the viewer
+    Vec3<T> side;    // the surface's own normal, turned toward the viewer
+    Vec3<T> origin;  // of rays that leave on that side, outside the error box of the hit
     Vec3<T> normal, view, diffuse;
     Departure outer, inner;  // of rays that leave on the viewer's side, and on the other
 };
 
 template <class T>
-EyeSample<T> Tracer<T>::sample(const Vec3<T>& origin, const Vec3<T>& direction) {
+EyeSample<T> Tracer<T>::sample(const Vec3<T>& origin, const Vec3<T>& direction, const Bvh::Frontier* from) {
     EyeSample<T> first{{}, infinity<T>, -1};
     ++counts_.eye;
-    first.radiance = radiance(make_ray(origin, direction), {}, 1, NoRecord{}, &first);
+    first.radiance = radiance(WideRay<T>(origin, direction), {}, 1, NoRecord{}, &first, from);
     return first;
 }
 
@@ -26,25 +27,25 @@ template <class T>
 RayTreeNode Tracer<T>::ray_tree(const Vec3<T>& origin, const Vec3<T>& direction) {
     RayTreeNode root;
     ++counts_.eye;
-    radiance(make_ray(origin, direction), {}, 1, RecordTree{&root}, nullptr);
+    radiance(WideRay<T>(origin, direction), {}, 1, RecordTree{&root}, nullptr);
     return root;
 }
 
 template <class T>
 template <class Record>
-Vec3<T> Tracer<T>::radiance(const Ray<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first) {
+Vec3<T> Tracer<T>::radiance(const WideRay<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first,
+                           const Bvh::Frontier* from) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return {};
-    const WideRay<T> wide(ray);
-    const Nearest<T> nearest = closest_hit(scene_, wide, departed, settings_.acceleration);
+    const Nearest<T> nearest = closest_hit(scene_, ray, departed, settings_.acceleration, from);
     Vec3<T> value(scene_.background());
     T t = infinity<T>;
-    if (nearest.hit) value = shade(wide, nearest, depth, record, &t);
+    if (nearest.hit) value = shade(ray, nearest, depth, record, &t);
     const std::int32_t object =
         nearest.hit ? scene_.objects()[scene_.geometry().primitives[nearest.primitive].object].id : -1;
     if (first) first->t = t, first->object = object;
     if constexpr (Record::active) {
-        record.node->origin = Vec3d(ray.origin);
-        record.node->direction = Vec3d(ray.direction);
+        record.node->origin = Vec3d(ray.narrow.origin);
+        record.node->direction = Vec3d(ray.narrow.direction);
         record.node->hit = nearest.hit;
         record.node->t = double(t);
         record.node->object = object;
@@ -58,12 +59,15 @@ template <class Record>
 Vec3<T> Tracer<T>::shade(const WideRay<T>& wide, const Nearest<T>& nearest, int depth, Record record, T* t) {
     const Geometry& geometry = scene_.geometry();
     const Ray<T>& ray = wide.narrow;
-    const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, wide.wide, false);
     const Material& material = *scene_.objects()[geometry.primitives[nearest.primitive].object].material;
+    const SurfacePoint<T> hit =
+        surface_point<T>(geometry, nearest.crossing, wide.wide, {.t_error = false, .uv = material.texture != nullptr});
+    const Vec3<T> side = hit.entering ? hit.normal : -hit.normal;
     const Vec3<T> diffuse = material.texture ? material.texture->lookup(hit.uv) : Vec3<T>(material.diffuse);
     const Shadable at{hit,
                       material,
-                      hit.entering ? hit.normal : -hit.normal,
+                      side,
+                      offset_origin(hit.point, hit.point_error, side),
                       hit.entering ? hit.shading : -hit.shading,
                       -ray.direction,
                       diffuse,
@@ -104,14 +108,14 @@ Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
     return sum;
 }
 
-// A shadow ray starts outside the error box of the hit and ends at the light itself.
+// A shadow ray ends at the light itself.
 template <class T>
 bool Tracer<T>::is_lit(const Shadable& at, const Light& light, const Vec3<T>& direction, std::int32_t* blocker) {
     ++counts_.shadow;
-    const Vec3<T> origin = offset_origin(at.hit.point, at.hit.point_error, at.side);
-    const bool directional = light.kind == LightKind::directional;
-    const Ray<T> ray = directional ? make_ray(origin, direction) : make_segment(origin, Vec3<T>(light.position));
-    return !is_blocked(scene_, WideRay<T>(ray), at.outer, blocker, settings_.acceleration);
+    const WideRay<T> ray = light.kind == LightKind::directional
+                               ? WideRay<T>(at.origin, direction)
+                               : WideRay<T>::segment(at.origin, Vec3<T>(light.position));
+    return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration);
 }
 
 // local + reflect L(R) + transmit L(T), in this order.
@@ -133,13 +137,12 @@ Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const 
     }
     if (max_component(reflect) > T(0)) {
         ++counts_.reflected;
-        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, at.side),
-                                     reflected_direction(ray.direction, at.normal));
+        const WideRay<T> next(at.origin, reflected_direction(ray.direction, at.normal));
         sum = saturate(sum + reflect * radiance(next, at.outer, depth + 1, record.child(RayKind::reflected), nullptr));
     }
     if (max_component(transmit) > T(0)) {
         ++counts_.refracted;
-        const Ray<T> next = make_ray(offset_origin(at.hit.point, at.hit.point_error, -at.side), through);
+        const WideRay<T> next(offset_origin(at.hit.point, at.hit.point_error, -at.side), through);
         sum = saturate(sum + transmit * radiance(next, at.inner, depth + 1, record.child(RayKind::refracted), nullptr));
     }
     return sum;

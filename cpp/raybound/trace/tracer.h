@@ -37,8 +37,8 @@ class alignas(64) Tracer {
   public:
     Tracer(const Snapshot& scene, const TraceSettings& settings) : scene_(scene), settings_(settings) {}
 
-    // The radiance of an eye ray with a unit direction.
-    EyeSample<T> sample(const Vec3<T>& origin, const Vec3<T>& direction);
+    // The radiance of an eye ray with a unit direction; the search for what it hits may begin at `from`.
+    EyeSample<T> sample(const Vec3<T>& origin, const Vec3<T>& direction, const Bvh::Frontier* from = nullptr);
 
     // The same with its ray tree.
     RayTreeNode ray_tree(const Vec3<T>& origin, const Vec3<T>& direction);
@@ -49,7 +49,8 @@ class alignas(64) Tracer {
     struct Shadable;
 
     template <class Record>
-    Vec3<T> radiance(const Ray<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first);
+    Vec3<T> radiance(const WideRay<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first,
+                     const Bvh::Frontier* from = nullptr);
     template <class Record>
     Vec3<T> shade(const WideRay<T>& wide, const Nearest<T>& nearest, int depth, Record record, T* t);
     template <class Record>
