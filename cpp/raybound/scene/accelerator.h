@@ -104,6 +104,7 @@ bool Accelerator::visit_leaf(const Geometry& geometry, std::uint32_t leaf, T nea
 template <class T, class Visit>
 void Accelerator::traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max, const Visit& visit,
                            const Bvh::Frontier* from) const {
+    if (from && from->count == 0) return;
     SearchRay<T> search(ray);
     bvh_.traverse(
         search.slabs, t_max,

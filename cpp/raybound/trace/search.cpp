@@ -67,7 +67,7 @@ Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure d
 
 template <class T>
 bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed, std::int32_t* blocker,
-                Acceleration acceleration) {
+                Acceleration acceleration, std::uint32_t* last) {
     const Geometry& geometry = scene.geometry();
     const bool brute_force = acceleration == Acceleration::brute_force;
     const T reach = ray.narrow.has_target ? ray.narrow.t_max * T(1 + 0x1p-10) : infinity<T>;
@@ -76,15 +76,22 @@ bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed
         const Primitive& primitive = geometry.primitives[index];
         if (!blocks(geometry, primitive, ray, Asking<T>{filtered, brute_force})) return false;
         if (blocker) *blocker = scene.objects()[primitive.object].id;
+        if (last) *last = index;
         return true;
     };
+    if (last && *last != Departure::none) {
+        T entry;
+        if (crosses(geometry.primitives[*last].bounds, SlabRay<T>(ray.narrow), reach, &entry) &&
+            visit(*last, entry, false))
+            return true;
+    }
     if (!brute_force) return scene.accelerator().any(geometry, ray.narrow, reach, visit);
     return visit_all(geometry, ray.narrow, reach, visit);
 }
 
 template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, Departure, Acceleration, const Bvh::Frontier*);
 template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, Departure, Acceleration, const Bvh::Frontier*);
-template bool is_blocked(const Snapshot&, const WideRay<float>&, Departure, std::int32_t*, Acceleration);
-template bool is_blocked(const Snapshot&, const WideRay<double>&, Departure, std::int32_t*, Acceleration);
+template bool is_blocked(const Snapshot&, const WideRay<float>&, Departure, std::int32_t*, Acceleration, std::uint32_t*);
+template bool is_blocked(const Snapshot&, const WideRay<double>&, Departure, std::int32_t*, Acceleration, std::uint32_t*);
 
 }  // namespace raybound

@@ -29,8 +29,10 @@ Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure d
                        Acceleration acceleration = Acceleration::bvh, const Bvh::Frontier* from = nullptr);
 
 // Something opaque lies certainly between the ray's origin and its end; `blocker` (may be null) is told which object.
+// `last` (may be null) is a primitive to ask first, and is told which one has blocked: rays to one light from points
+// side by side are mostly blocked by the same.
 template <class T>
 bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed, std::int32_t* blocker,
-                Acceleration acceleration = Acceleration::bvh);
+                Acceleration acceleration = Acceleration::bvh, std::uint32_t* last = nullptr);
 
 }  // namespace raybound

@@ -88,7 +88,8 @@ template <class Record>
 Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
     const T n_dot_v = dot(at.normal, at.view);
     Vec3<T> sum = saturate(Vec3<T>(scene_.ambient()) * at.diffuse);
-    for (const LightRecord& entry : scene_.lights()) {
+    for (std::size_t i = 0; i < scene_.lights().size(); ++i) {
+        const LightRecord& entry = scene_.lights()[i];
         const Light& light = *entry.light;
         const Incoming<T> from = incoming(light, at.hit.point);
         const T n_dot_l = dot(at.normal, from.direction);
@@ -99,7 +100,7 @@ Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
             const Vec3<T> factor =
                 saturate(reflectance(at.diffuse, at.material, at.normal, from.direction, at.view, n_dot_l, n_dot_v));
             const bool weighs = Record::active || max_component(factor) > T(0);  // rays of weight zero are not traced
-            const bool lit = weighs && is_lit(at, light, from.direction, &blocker);
+            const bool lit = weighs && is_lit(at, i, from.direction, Record::active ? &blocker : nullptr);
             if (lit) sum = saturate(sum + from.irradiance * factor);
             verdict = lit ? LightVerdict::lit : LightVerdict::blocked;
         }
@@ -110,12 +111,14 @@ Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
 
 // A shadow ray ends at the light itself.
 template <class T>
-bool Tracer<T>::is_lit(const Shadable& at, const Light& light, const Vec3<T>& direction, std::int32_t* blocker) {
+bool Tracer<T>::is_lit(const Shadable& at, std::size_t index, const Vec3<T>& direction, std::int32_t* blocker) {
+    const Light& light = *scene_.lights()[index].light;
     ++counts_.shadow;
     const WideRay<T> ray = light.kind == LightKind::directional
                                ? WideRay<T>(at.origin, direction)
                                : WideRay<T>::segment(at.origin, Vec3<T>(light.position));
-    return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration);
+    return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration,
+                       blocker ? nullptr : &last_blockers_[index]);
 }
 
 // local + reflect L(R) + transmit L(T), in this order.

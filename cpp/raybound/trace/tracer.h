@@ -35,7 +35,8 @@ struct EyeSample {
 template <class T>
 class alignas(64) Tracer {
   public:
-    Tracer(const Snapshot& scene, const TraceSettings& settings) : scene_(scene), settings_(settings) {}
+    Tracer(const Snapshot& scene, const TraceSettings& settings)
+        : scene_(scene), settings_(settings), last_blockers_(scene.lights().size(), Departure::none) {}
 
     // The radiance of an eye ray with a unit direction; the search for what it hits may begin at `from`.
     EyeSample<T> sample(const Vec3<T>& origin, const Vec3<T>& direction, const Bvh::Frontier* from = nullptr);
@@ -57,11 +58,12 @@ class alignas(64) Tracer {
     Vec3<T> direct_light(const Shadable& at, Record record);
     template <class Record>
     Vec3<T> add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth, Record record);
-    bool is_lit(const Shadable& at, const Light& light, const Vec3<T>& direction, std::int32_t* blocker);
+    bool is_lit(const Shadable& at, std::size_t light, const Vec3<T>& direction, std::int32_t* blocker);
 
     const Snapshot& scene_;
     TraceSettings settings_;
     RayCounts counts_;
+    std::vector<std::uint32_t> last_blockers_;  // by light
 };
 
 }  // namespace raybound
