@@ -61,8 +61,7 @@ struct SlabRay {
     // Which planes the ray enters and leaves by, of lower x, y, z, upper x, y, z. (Unsigned: addresses need no more.)
     std::uint32_t near_plane[3], far_plane[3];
 
-    explicit SlabRay(const Ray<T>& ray)
-        : SlabRay(ray.origin, ray.origin, ray.direction, slab_widening<T>) {}
+    explicit SlabRay(const Ray<T>& ray) : SlabRay(ray.origin, ray.origin, ray.direction, slab_widening<T>) {}
 
     // origin +- origin_error is rounded once: the error has to cover that too.
     SlabRay(const Vec3<T>& origin, const Vec3<T>& origin_error, const Vec3<T>& direction)

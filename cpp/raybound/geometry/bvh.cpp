@@ -7,7 +7,7 @@ namespace raybound {
 
 namespace {
 
-constexpr int bin_count = 16, most_classes = 4;
+constexpr int bin_count = 32, most_classes = 4;
 constexpr int deepest_sah_level = 40;  // below it the median splits: so the depth stays under 40 + 32 levels of two
 
 // Two floats of padding make four-wide loads of both corners possible.
@@ -79,17 +79,17 @@ class Builder {
         nodes_.push_back(empty_node(parent));
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const std::uint32_t slot = index * pack_width + std::uint32_t(k);
-            const std::uint32_t child = parts[k].is_leaf ? make_leaf(parts[k], slot) : build_node(parts[k], slot);
+            const std::uint32_t child = parts[k].is_leaf ? make_leaf(parts[k]) : build_node(parts[k], slot);
             set_child(nodes_[index], k, parts[k].bounds);
             nodes_[index].child[k] = child;
         }
         return index;
     }
 
-    std::uint32_t make_leaf(const Range& range, std::uint32_t slot) const {
+    std::uint32_t make_leaf(const Range& range) const {
         std::array<std::uint32_t, pack_width> indices{};
         for (std::uint32_t i = 0; i < range.size(); ++i) indices[i] = items_[range.begin + i].index;
-        return leaves_.make_leaf(std::span(indices).first(range.size()), slot) | Bvh::leaf_bit;
+        return leaves_.make_leaf(std::span(indices).first(range.size())) | Bvh::leaf_bit;
     }
 
   public:

@@ -23,12 +23,12 @@ class Bvh {
     static constexpr std::uint32_t leaf_bit = 0x80000000u;
     static constexpr std::uint32_t no_parent = 0xffffffffu;
 
-    // How leaves are made. Items of one class may share a leaf, up to the class's capacity (at most 8); `make_leaf` is
-    // told the items and the slot (node * 8 + slot) that leads to the leaf, and returns a number below 2^31.
+    // How leaves are made. Items of one class may share a leaf, up to the class's capacity (at most 8); `make_leaf`
+    // returns a number below 2^31 for the leaf.
     struct Leaves {
         std::function<int(std::uint32_t item)> class_of;
         std::function<int(int item_class)> capacity;
-        std::function<std::uint32_t(std::span<const std::uint32_t> items, std::uint32_t slot)> make_leaf;
+        std::function<std::uint32_t(std::span<const std::uint32_t> items)> make_leaf;
     };
 
     Bvh() = default;
@@ -73,7 +73,8 @@ inline constexpr int stack_size = 72 * (pack_width - 1) + 1;
 
 // A bit for each child that the ray crosses within [0, t_max], and where it enters each.
 template <class T>
-inline std::uint32_t crossed_children(const BvhNode& node, const SlabRay<T>& ray, T t_max, Pack<T>& near) {
+[[gnu::always_inline]] inline std::uint32_t crossed_children(const BvhNode& node, const SlabRay<T>& ray, T t_max,
+                                                             Pack<T>& near) {
     const auto plane = [&node](std::uint32_t i) { return Pack<T>::load(node.plane[i]); };
     const BoxInterval<Pack<T>> inside = slab_interval<Pack<T>>(ray, t_max, plane);
     near = inside.near;

@@ -32,55 +32,71 @@ Accelerator::Kind Accelerator::kind_of(const Geometry& geometry, std::uint32_t p
     return Kind::single;
 }
 
-Accelerator::Accelerator(const Geometry& geometry) : places_(geometry.primitives.size()) {
+Accelerator::Accelerator(const Geometry& geometry) {
     std::vector<Box> boxes;
     boxes.reserve(geometry.primitives.size());
     for (const Primitive& primitive : geometry.primitives) boxes.push_back(primitive.bounds);
-    const Bvh::Leaves leaves{
-        [&](std::uint32_t item) { return int(kind_of(geometry, item)); },
-        [](int kind) { return Kind(kind) == Kind::single ? 1 : pack_width; },
-        [&](std::span<const std::uint32_t> items, std::uint32_t slot) { return make_leaf(geometry, items, slot); }};
+    const Bvh::Leaves leaves{[&](std::uint32_t item) { return int(kind_of(geometry, item)); },
+                             [](int kind) { return Kind(kind) == Kind::single ? 1 : pack_width; },
+                             [&](std::span<const std::uint32_t> items) { return make_leaf(geometry, items); }};
     bvh_ = Bvh(boxes, leaves);
     built_cost_ = bvh_.cost();
     spheres_.shrink_to_fit();
     triangles_.shrink_to_fit();
 }
 
-std::uint32_t Accelerator::make_leaf(const Geometry& geometry, std::span<const std::uint32_t> items,
-                                     std::uint32_t slot) {
+std::uint32_t Accelerator::make_leaf(const Geometry& geometry, std::span<const std::uint32_t> items) {
     const Kind kind = kind_of(geometry, items[0]);
     std::uint32_t index = items[0];
     if (kind == Kind::spheres) index = std::uint32_t(spheres_.size()), spheres_.emplace_back();
     if (kind == Kind::triangles) index = std::uint32_t(triangles_.size()), triangles_.emplace_back();
     const std::uint32_t leaf = std::uint32_t(kind) << kind_shift | index;
-    for (std::size_t lane = 0; lane < items.size(); ++lane) {
-        places_[items[lane]] = {leaf, slot, std::uint8_t(lane)};
-        fill_lane(geometry, items[lane], kind);
-    }
+    for (std::uint32_t lane = 0; lane < items.size(); ++lane) fill_lane(geometry, items[lane], leaf, lane);
     return leaf;
 }
 
-void Accelerator::fill_lane(const Geometry& geometry, std::uint32_t primitive, Kind kind) {
+void Accelerator::fill_lane(const Geometry& geometry, std::uint32_t primitive, std::uint32_t at, std::uint32_t lane) {
+    const auto kind = Kind(at >> kind_shift);
     if (kind == Kind::single) return;
-    const Place& place = places_[primitive];
     const Leaf& leaf = geometry.leaves[geometry.primitives[primitive].root];
-    const std::uint32_t index = place.leaf & index_mask;
+    const std::uint32_t index = at & index_mask;
     if (kind == Kind::spheres) {
-        fill(spheres_[index], place.lane, leaf);
-        spheres_[index].id[place.lane] = primitive;
-        spheres_[index].lanes |= 1u << place.lane;
+        fill(spheres_[index], lane, leaf);
+        spheres_[index].id[lane] = primitive;
+        spheres_[index].lanes |= 1u << lane;
     } else {
-        fill(triangles_[index], place.lane, geometry.polygon_vertices(geometry.polygons[leaf.polygon]));
-        triangles_[index].id[place.lane] = primitive;
-        triangles_[index].lanes |= 1u << place.lane;
+        fill(triangles_[index], lane, geometry.polygon_vertices(geometry.polygons[leaf.polygon]));
+        triangles_[index].id[lane] = primitive;
+        triangles_[index].lanes |= 1u << lane;
+    }
+}
+
+void Accelerator::find_places(std::size_t primitives) {
+    places_.resize(primitives);
+    const auto nodes = bvh_.nodes();
+    for (std::uint32_t slot = 0; slot < nodes.size() * pack_width; ++slot) {
+        const BvhNode& node = nodes[slot / pack_width];
+        const std::uint32_t child = node.child[slot % pack_width], leaf = child & ~Bvh::leaf_bit;
+        if (!(child & Bvh::leaf_bit) || node.plane[0][slot % pack_width] == infinity<float>) continue;
+        const std::uint32_t index = leaf & index_mask;
+        const auto add = [&](const auto& pack) {
+            for (std::uint32_t lanes = pack.lanes; lanes != 0;) {
+                const int lane = bvh::take_lowest(lanes);
+                places_[pack.id[lane]] = {leaf, slot, std::uint8_t(lane)};
+            }
+        };
+        if (Kind(leaf >> kind_shift) == Kind::single) places_[index] = {leaf, slot, 0};
+        if (Kind(leaf >> kind_shift) == Kind::spheres) add(spheres_[index]);
+        if (Kind(leaf >> kind_shift) == Kind::triangles) add(triangles_[index]);
     }
 }
 
 bool Accelerator::update(const Geometry& geometry, std::uint32_t primitive) {
+    if (places_.empty()) find_places(geometry.primitives.size());
     const Place& place = places_[primitive];
     const auto kind = Kind(place.leaf >> kind_shift);
     if (kind_of(geometry, primitive) != kind) return false;
-    fill_lane(geometry, primitive, kind);
+    fill_lane(geometry, primitive, place.leaf, place.lane);
     Box box = geometry.primitives[primitive].bounds;
     const std::uint32_t index = place.leaf & index_mask;
     const auto add = [&](const auto& pack) {

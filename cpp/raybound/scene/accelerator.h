@@ -43,7 +43,8 @@ class Accelerator {
     bool update(const Geometry& geometry, std::uint32_t primitive);
 
     // Calls visit(primitive, entry, filtered) for the primitives whose own box the ray crosses within [0, t_max] and
-    // which it may meet; visit may lower t_max. The search begins at `from`, if that is given. `filtered`: the filter in T has been asked already.
+    // which it may meet; visit may lower t_max. The search begins at `from`, if that is given. `filtered`: the filter
+    // in T has been asked already.
     template <class T, class Visit>
     void traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max, const Visit& visit,
                   const Bvh::Frontier* from) const;
@@ -57,18 +58,20 @@ class Accelerator {
     static constexpr std::uint32_t kind_shift = 29, index_mask = (1u << kind_shift) - 1;
 
     static Kind kind_of(const Geometry& geometry, std::uint32_t primitive);
-    std::uint32_t make_leaf(const Geometry& geometry, std::span<const std::uint32_t> items, std::uint32_t slot);
-    void fill_lane(const Geometry& geometry, std::uint32_t primitive, Kind kind);
+    std::uint32_t make_leaf(const Geometry& geometry, std::span<const std::uint32_t> items);
+    void fill_lane(const Geometry& geometry, std::uint32_t primitive, std::uint32_t leaf, std::uint32_t lane);
 
     template <class T, class Visit>
     bool visit_leaf(const Geometry& geometry, std::uint32_t leaf, T near, SearchRay<T>& ray, const T& t_max,
                     const Visit& visit) const;
 
-    // Where a primitive is: its leaf, its lane in it, and the slot of the BVH that leads there.
+    // Where a primitive is: its leaf, its lane in it, and the slot of the BVH that leads there. Nobody needs to know
+    // before the first update.
     struct Place {
         std::uint32_t leaf, slot;
         std::uint8_t lane;
     };
+    void find_places(std::size_t primitives);
 
     Bvh bvh_;
     std::vector<SpherePack> spheres_;

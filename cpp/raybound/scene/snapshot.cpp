@@ -48,7 +48,7 @@ std::size_t Snapshot::bytes() const {
     for (const MeshInstance& mesh : geometry_.meshes) meshes.insert(mesh.data);
     std::size_t shared = 0;
     for (const MeshData* mesh : meshes) shared += mesh->bytes();
-    return geometry_.bytes() + accelerator_.bytes() + objects().capacity() * sizeof(ObjectRecord) + shared;
+    return geometry_.bytes() + accelerator_.bytes() + objects().size() * sizeof(ObjectRecord) + shared;
 }
 
 }  // namespace raybound

@@ -45,8 +45,13 @@ Tap<T> tap(T x, int size, Wrap wrap) {
 
 }  // namespace
 
-Texture::Texture(std::vector<Vec3f> texels, int width, int height, float scale_u, float scale_v, Wrap wrap)
-    : texels_(std::move(texels)), width_(width), height_(height), scale_u_(scale_u), scale_v_(scale_v), wrap_(wrap) {
+Texture::Texture(std::span<const Vec3f> texels, int width, int height, float scale_u, float scale_v, Wrap wrap)
+    : texels_(texels.begin(), texels.end()),
+      width_(width),
+      height_(height),
+      scale_u_(scale_u),
+      scale_v_(scale_v),
+      wrap_(wrap) {
     if (width < 1 || height < 1)
         throw std::invalid_argument("Texture: image must have at least one texel, got " + std::to_string(width) + "x" +
                                     std::to_string(height));

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <span>
 
+#include "raybound/geometry/large_array.h"
 #include "raybound/shapes/surface.h"
 
 namespace raybound {
@@ -15,7 +16,7 @@ class Texture {
   public:
     // Texels row by row, the row at v = 0 (the bottom) first. Throws std::invalid_argument for empty or negative or
     // non-finite texels and scales of zero.
-    Texture(std::vector<Vec3f> texels, int width, int height, float scale_u, float scale_v, Wrap wrap);
+    Texture(std::span<const Vec3f> texels, int width, int height, float scale_u, float scale_v, Wrap wrap);
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -28,7 +29,7 @@ class Texture {
   private:
     const Vec3f& texel(int x, int y) const { return texels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
 
-    std::vector<Vec3f> texels_;
+    LargeArray<Vec3f> texels_;
     int width_, height_;
     float scale_u_, scale_v_;
     Wrap wrap_;

@@ -170,7 +170,8 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
     if (wanted.uv) hit.uv = {T(at.uv.u), T(at.uv.v)};
     hit.entering = !(dot(ray.direction, at.normal) > W(0));
     const Surface<W> surface = leaf_surface(geometry, leaf, crossing.face, at.point, ray.direction);
-    hit.t_error = wanted.t_error ? crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal) : T(0);
+    hit.t_error =
+        wanted.t_error ? crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal) : T(0);
     return hit;
 }
 

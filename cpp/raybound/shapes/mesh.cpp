@@ -89,7 +89,7 @@ void MeshData::build() {
         bounds_.extend(boxes.back());
     }
     reach_ = maximum(max_component(absolute(bounds_.lower)), max_component(absolute(bounds_.upper)));
-    const auto make_leaf = [this](std::span<const std::uint32_t> items, std::uint32_t) {
+    const auto make_leaf = [this](std::span<const std::uint32_t> items) {
         TrianglePack pack;
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             const Corners<float> c = corners<float>(std::int32_t(items[lane]));

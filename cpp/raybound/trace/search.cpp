@@ -89,9 +89,13 @@ bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed
     return visit_all(geometry, ray.narrow, reach, visit);
 }
 
-template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, Departure, Acceleration, const Bvh::Frontier*);
-template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, Departure, Acceleration, const Bvh::Frontier*);
-template bool is_blocked(const Snapshot&, const WideRay<float>&, Departure, std::int32_t*, Acceleration, std::uint32_t*);
-template bool is_blocked(const Snapshot&, const WideRay<double>&, Departure, std::int32_t*, Acceleration, std::uint32_t*);
+template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, Departure, Acceleration,
+                                    const Bvh::Frontier*);
+template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, Departure, Acceleration,
+                                     const Bvh::Frontier*);
+template bool is_blocked(const Snapshot&, const WideRay<float>&, Departure, std::int32_t*, Acceleration,
+                         std::uint32_t*);
+template bool is_blocked(const Snapshot&, const WideRay<double>&, Departure, std::int32_t*, Acceleration,
+                         std::uint32_t*);
 
 }  // namespace raybound

@@ -34,7 +34,7 @@ RayTreeNode Tracer<T>::ray_tree(const Vec3<T>& origin, const Vec3<T>& direction)
 template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::radiance(const WideRay<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first,
-                           const Bvh::Frontier* from) {
+                            const Bvh::Frontier* from) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return {};
     const Nearest<T> nearest = closest_hit(scene_, ray, departed, settings_.acceleration, from);
     Vec3<T> value(scene_.background());
