@@ -92,10 +92,10 @@ notebooks: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the notebooks
 soak: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the long searches for failures
 	$(PY) -m pytest -m soak -o timeout=3000 $(PYTEST_ARGS)
 
-bench: $(VENV)/stamp-build ## Measure the base tracer's speed; ARGS=--readme renews the README's tables
+bench: $(VENV)/stamp-build $(VENV)/stamp-mesh ## Measure the base tracer's speed; ARGS=--readme renews the README's tables
 	$(PY) -m raybound bench base $(ARGS)
 
-bench-embree: $(VENV)/stamp-build $(VENV)/stamp-bench ## Measure speed beside Embree's (needs libembree-dev)
+bench-embree: $(VENV)/stamp-build $(VENV)/stamp-mesh $(VENV)/stamp-bench ## Measure speed beside Embree's (needs libembree-dev)
 	$(PY) -m raybound bench embree $(ARGS)
 
 demo: $(VENV)/stamp-build ## Render the walk-through to ./out

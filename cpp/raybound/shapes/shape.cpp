@@ -274,7 +274,9 @@ Affine checked_transform(const std::string& owner, const Affine& transform) {
     const Vec3d c0 = rounded.linear.column(0), c1 = rounded.linear.column(1), c2 = rounded.linear.column(2);
     const double volume = std::abs(determinant(rounded.linear)), lengths = length(c0) * length(c1) * length(c2);
     const double size = maximum(maximum(length(c0), length(c1)), length(c2));
-    if (!(volume > 0x1p-40 * lengths) || !(size <= double(largest_coordinate)) || !(lengths > 0))
+    if (!(size <= double(largest_coordinate)))
+        refuse(owner + ": matrix must scale by at most 2**60, got " + format(size));
+    if (!(volume > 0x1p-40 * lengths) || !(lengths > 0))
         refuse(owner + ": matrix must not be singular, got determinant " + format(determinant(rounded.linear)));
     return rounded;
 }

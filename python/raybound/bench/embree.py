@@ -102,9 +102,9 @@ def _side(rays: dict[str, int], seconds: float, primary_seconds: float) -> dict[
 def _mesh(triangles: int, count: int, repeat: int) -> dict[str, Any]:
     """Closest hits of scattered rays at a mesh on both sides."""
     vertices, faces = workloads.mesh(triangles)
-    scene = workloads.mesh_scene(vertices, faces)
     origins, directions = workloads.scattered_rays(vertices, count)
     begin = time.perf_counter()
+    scene = workloads.mesh_scene(vertices, faces)
     snapshot = scene._document.snapshot()
     built = time.perf_counter() - begin
     embree_built, search = _embree_search(vertices, faces)
