@@ -1,5 +1,5 @@
-"""Frames search for what their eye rays hit from where the tree parts for a block of pixels, and ask the last blocker of
-a light first: the same bytes as rays that are traced one by one, from the root, without a past."""
+"""Frames begin the search for what an eye ray hits where the tree parts for a block of pixels, and ask the last blocker
+of a light first: the same bytes as rays that are traced one by one, from the root, without a past."""
 
 import numpy as np
 import pytest
