@@ -138,7 +138,7 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
                                    bool with_t_error) {
     using W = Wide<T>;
     const Leaf& leaf = geometry.leaves[crossing.leaf];
-    const BarycentricHit<W> at = barycentric_hit(geometry, leaf, crossing.face, ray);
+    const BarycentricHit at = barycentric_hit(geometry, leaf, crossing.face, ray);
     SurfacePoint<T> hit;
     hit.t = T(crossing.t);
     hit.point = Vec3<T>(at.point);
@@ -149,7 +149,7 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
     hit.normal = Vec3<T>(at.normal);
     hit.shading = Vec3<T>(at.shading);
     hit.uv = {T(at.uv.u), T(at.uv.v)};
-    hit.entering = !(dot(ray.direction, at.normal) > W(0));
+    hit.entering = at.entering;
     const Surface<W> surface = leaf_surface(geometry, leaf, crossing.face, at.point, ray.direction);
     hit.t_error = with_t_error ? crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal) : T(0);
     return hit;
