@@ -114,6 +114,13 @@ void register_shapes(py::module_& m) {
             return result(Shape::polygon({v.begin(), v.end()}));
         },
         "vertices"_a);
+    m.def(
+        "quadric",
+        [=](const Floats& coefficients, const Floats& lower, const Floats& upper) {
+            const float* c = coefficients.data();
+            return result(Shape::quadric({c, c + coefficients.size()}, to_vec3<float>(lower), to_vec3<float>(upper)));
+        },
+        "coefficients"_a, "min"_a, "max"_a);
     using Parts = std::vector<std::shared_ptr<Shape>>;
     m.def(
         "csg_union", [=](const Parts& p) { return result(Shape::combine(ShapeKind::csg_union, {p.begin(), p.end()})); },

@@ -29,7 +29,7 @@ from .renderer import Renderer, TraceResult, render
 from .reporting import report
 from .scene import Scene
 from .scene_file import load_scene
-from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Shape, Sphere, Union
+from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Union
 from .tolerance import Tolerance
 from .transform import Transform
 
@@ -53,6 +53,7 @@ __all__ = [
     "Path",
     "PointLight",
     "Polygon",
+    "Quadric",
     "Reason",
     "Renderer",
     "Scene",

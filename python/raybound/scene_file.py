@@ -39,12 +39,13 @@ from .lights import DirectionalLight, Light, PointLight, SpotLight
 from .materials import Material, Texture
 from .meshes import Mesh
 from .scene import Scene
-from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Shape, Sphere, Transformed, Union
+from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Transformed, Union
 from .transform import Transform
 
 FORMAT, VERSION = "raybound scene", 1
 SHAPES: dict[str, type[Shape]] = {
-    cls.__name__: cls for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Mesh, Union, Intersection, Transformed)
+    cls.__name__: cls
+    for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Quadric, Mesh, Union, Intersection, Transformed)
 }
 LIGHTS: dict[str, type[Light]] = {cls.__name__: cls for cls in (DirectionalLight, PointLight, SpotLight)}
 T = TypeVar("T")
@@ -286,6 +287,8 @@ def _shape(d: object, meshes: list[Mesh], who: str) -> Shape:
     if cls is Transformed:
         arguments["shape"] = _shape(arguments["shape"], meshes, f"{who}.shape")
         arguments["transform"] = _make(who, Transform, arguments["transform"])
+    if cls is Quadric and "clip" in arguments:
+        arguments["clip"] = _shape(arguments["clip"], meshes, f"{who}.clip")
     made: Shape = _make(who, cls, **arguments)
     return made
 

@@ -136,6 +136,26 @@ class Polygon(Shape):
         self._set(vertices=kept, _native=native)
 
 
+class Quadric(Shape):
+    """The solid q <= 0 of a quadric within a box: paraboloids, hyperboloids, ellipsoids, saddles, ...
+
+    `coefficients`: ten numbers (A, B, C, D, E, F, G, H, I, J), not all of A to I zero, in
+    q = A x^2 + B y^2 + C z^2 + D xy + E yz + F xz + G x + H y + I z + J; `clip`: a Box; scene units. Face 0 is the
+    quadric, faces 1 to 6 are the box's (-x, +x, -y, +y, -z, +z). On face 0 u is the longitude about the middle of the
+    box, from +x, and v the height in the box; the others carry (u, v) as a Box does. `bounds` are those of the solid,
+    wider by at most 1e-6 of the box but for very thin solids. ValueError if nothing is inside.
+    """
+
+    coefficients: tuple[float, ...]
+    clip: Box
+
+    def __init__(self, coefficients: npt.ArrayLike, clip: Box = Box()) -> None:  # noqa: B008  # immutable
+        kept = _validate.array("Quadric", "coefficients", coefficients, shape=(10,))
+        box = _validate.instance("Quadric", "clip", clip, Box, "a Box")
+        native = _core.quadric(kept, packed(box.min), packed(box.max))
+        self._set(coefficients=tuple(kept.tolist()), clip=box, _native=native)
+
+
 class _Combination(Shape):
     """What unions and intersections share: a tuple of shapes."""
 

@@ -18,6 +18,7 @@ SHAPES = {
     "Cone": rb.Cone((0, 0, 0.1), (1, 2, 3), radius=0.7, top_radius=0.1),
     "Disk": rb.Disk((0, 0, 0.1), (1, 2, 3), radius=0.7),
     "Polygon": rb.Polygon(CORNERS),
+    "Quadric": rb.Quadric((1, 1, -1, 0.1, 0, 0, 0, 0.2, 0, -0.3), rb.Box((-1, -1, -0.7), (1, 1, 0.7))),
     "Union": rb.Union(rb.Sphere(), rb.Box((0, 0, 0), (1, 1, 2)), rb.Cone()),
     "Intersection": rb.Sphere() & rb.Box((0, 0, 0), (1, 1, 2)),
     "Transformed": rb.Cylinder(radius=0.3).transformed(TILT),

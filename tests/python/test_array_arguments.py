@@ -47,6 +47,7 @@ def layouts(array: np.ndarray) -> dict[str, np.ndarray]:
 MAKERS: dict[str, tuple[Any, np.ndarray]] = {
     "Sphere": (rb.Sphere, np.array([1, 2, 3])),
     "Polygon": (rb.Polygon, np.array(CORNERS)),
+    "Quadric": (rb.Quadric, np.array([1, 2, 3, 4, 5, 6, 7, 8, 9, 1])),
     "Transform": (rb.Transform, np.array([[2, 0, 0, 1], [0, 2, 0, 1], [0, 1, 2, 1], [0, 0, 0, 1]])),
     "scale": (rb.Transform.scale, np.array([1, 2, 3])),
     "Material": (rb.Material, np.array([1, 2, 3])),

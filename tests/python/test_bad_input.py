@@ -22,6 +22,7 @@ MAKERS: dict[str, tuple[Any, dict[str, Any]]] = {
     "Cone": (rb.Cone, {"base": ORIGIN, "apex": Z, "radius": 1, "top_radius": 0.5}),
     "Disk": (rb.Disk, {"center": ORIGIN, "normal": Z, "radius": 1}),
     "Polygon": (rb.Polygon, {"vertices": [ORIGIN, X, (0, 1, 0)]}),
+    "Quadric": (rb.Quadric, {"coefficients": (1, 1, 1, 0, 0, 0, 0, 0, 0, -1), "clip": rb.Box()}),
     "Transform": (rb.Transform, {"matrix": np.eye(4)}),
     "Material": (
         rb.Material,

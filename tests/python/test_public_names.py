@@ -11,9 +11,9 @@ import pytest
 import raybound as rb
 
 NAMES = """
-    Sphere Box Cylinder Cone Disk Polygon Mesh Union Intersection Shape Transform Material Texture DirectionalLight
-    PointLight SpotLight Scene Object LightHandle load_scene load_mesh Camera Renderer Tolerance render Frame Path
-    Reason next_float_up next_float_down gamma spawn_origin intersect testing report plot scenes TraceResult
+    Sphere Box Cylinder Cone Disk Polygon Quadric Mesh Union Intersection Shape Transform Material Texture
+    DirectionalLight PointLight SpotLight Scene Object LightHandle load_scene load_mesh Camera Renderer Tolerance render
+    Frame Path Reason next_float_up next_float_down gamma spawn_origin intersect testing report plot scenes TraceResult
     __version__
 """.split()  # noqa: SIM905  a page of names reads better than a list of strings
 

@@ -44,8 +44,8 @@ def test_looking_up() -> None:
         assert item.name in scene
         assert item in scene
     assert list(scene) == list(scene.objects)
-    assert len(scene) == len(scene.objects) == 10
-    assert [item.id for item in scene.objects] == list(range(10))
+    assert len(scene) == len(scene.objects) == 11
+    assert [item.id for item in scene.objects] == list(range(11))
     assert "nothing" not in scene
     assert small_scene().objects[0] not in scene
     with pytest.raises(KeyError, match="no object or light is named 'nothing'"):

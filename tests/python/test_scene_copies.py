@@ -64,7 +64,7 @@ def test_next_ids_of_copies_and_pickles() -> None:
     with scene.edit():
         twins.append(scene.copy())
     expected = scene.add(rb.Sphere(), PLAIN).id, scene.add_light(rb.PointLight((0, 0, 0))).id
-    assert expected == (11, 4)
+    assert expected == (12, 4)
     for twin in twins:
         assert (twin.add(rb.Sphere(), PLAIN).id, twin.add_light(rb.PointLight((0, 0, 0))).id) == expected
 

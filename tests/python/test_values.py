@@ -22,6 +22,7 @@ CHANGES: dict[str, dict[str, Any]] = {
     "Cone": {"top_radius": 0.2},
     "Disk": {"normal": (1, 2, 4)},
     "Polygon": {"vertices": [*CORNERS[:3], (0, 0.5, 0)]},
+    "Quadric": {"clip": rb.Box((-1, -1, -0.7), (1, 1, 0.8))},
     "Union": {"shapes": (rb.Sphere(),)},
     "Intersection": {"shapes": (rb.Sphere(), rb.Sphere((0, 0, 1)))},
     "Transformed": {"transform": rb.Transform.scale(2)},

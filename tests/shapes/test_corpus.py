@@ -19,7 +19,18 @@ def shape_of(case: dict[str, Any]) -> rb.Shape:
     """`repr` of a shape is a valid expression; nothing but the package's names is in reach."""
     names = {
         name: getattr(rb, name)
-        for name in ("Sphere", "Box", "Cylinder", "Cone", "Disk", "Polygon", "Union", "Intersection", "Transform")
+        for name in (
+            "Sphere",
+            "Box",
+            "Cylinder",
+            "Cone",
+            "Disk",
+            "Polygon",
+            "Quadric",
+            "Union",
+            "Intersection",
+            "Transform",
+        )
     }
     return eval(case["shape"], {"__builtins__": {}}, names)
 

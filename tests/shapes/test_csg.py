@@ -2,37 +2,13 @@
 
 import numpy as np
 import pytest
-from tests.support.support_csg import expression, is_thick
-from tests.support.support_hits import Tally, explained
-from tests.support.support_oracle import Found, build, exact, first_change, is_member
+from tests.support.support_csg import check_expression, expression, is_thick
+from tests.support.support_hits import Tally
+from tests.support.support_oracle import build, exact, first_change, is_member
 from tests.support.support_shapes import aimed_rays, f32, unit
 from tests.support.support_spawn import spawn
 
 import raybound as rb
-
-
-def close(found: Found | None, hit: np.void) -> bool:
-    """The first change of membership is the hit: the same face, within the error of t."""
-    if found is None or not hit["hit"]:
-        return (found is None) == (not hit["hit"])
-    return hit["face_id"] in found.faces and abs(float(found.t) - hit["t"]) <= max(
-        1.001 * hit["t_error"], 1e-6 * hit["t"]
-    )
-
-
-def check_expression(tally: Tally, shape: rb.Shape, origins: np.ndarray, directions: np.ndarray) -> None:
-    model = build(shape)
-    for o, d, hit in zip(origins, directions, rb.intersect(shape, origins, directions)):
-        found = first_change(model, o, d)
-        tally.counts["rays"] += 1
-        tally.counts["hits"] += bool(hit["hit"])
-        tally.counts["from inside"] += found is not None and found.inside
-        if close(found, hit):
-            continue
-        if explained(model, o, d, lambda f, h=hit: close(f, h)):
-            tally.counts["within rounding"] += 1
-        else:
-            tally.fail("wrong", shape, o, d, found, hit)
 
 
 @pytest.mark.parametrize("shapes", [160, pytest.param(4000, marks=pytest.mark.soak)])

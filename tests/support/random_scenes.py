@@ -55,8 +55,20 @@ def polygon(rng: Rng) -> rb.Shape:
     return rb.Polygon(np.array(point(rng)) + flat)
 
 
+def quadric(rng: Rng) -> rb.Shape:
+    """Ellipsoids, hyperboloids, saddles, bowls and cones, turned, in a box around a point."""
+    middle, half = np.array(point(rng)), size(rng)
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    signs = rng.choice([-1, 1], 3) * [1, *rng.choice([0, 1, 1], 2)]
+    m = turn @ np.diag(signs * rng.uniform(0.5, 2, 3)) @ turn.T / half
+    slope = rng.normal(size=3) * rng.choice([0, 0.5])
+    linear, constant = slope - 2 * m @ middle, middle @ m @ middle - slope @ middle - half * rng.uniform(0.01, 0.3)
+    coefficients = (*np.diag(m), 2 * m[0, 1], 2 * m[1, 2], 2 * m[0, 2], *linear, constant)
+    return rb.Quadric(coefficients, rb.Box(middle - half, middle + half))
+
+
 def solid(rng: Rng) -> rb.Shape:
-    return [sphere, box, cylinder, cone][int(rng.integers(4))](rng)
+    return [sphere, box, cylinder, cone, quadric][int(rng.integers(5))](rng)
 
 
 def csg(rng: Rng) -> rb.Shape:
@@ -108,7 +120,7 @@ def light(rng: Rng) -> rb.DirectionalLight | rb.PointLight | rb.SpotLight:
     return rb.SpotLight(position, aim, cutoff=float(rng.uniform(10, 70)), intensity=colour, falloff=falloff)
 
 
-MAKERS = (sphere, box, cylinder, cone, disk, polygon, csg)
+MAKERS = (sphere, box, cylinder, cone, disk, polygon, quadric, csg)
 
 
 def random_scene(seed: int, objects: int = 24, pixels: int = 48) -> rb.Scene:

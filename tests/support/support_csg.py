@@ -1,4 +1,4 @@
-"""Random nested CSG expressions."""
+"""Random nested CSG expressions, and solids against point membership along rays."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ import numpy as np
 
 import raybound as rb
 
-from .support_shapes import SOLIDS, Rng, affine, transform_about, unit
+from .support_hits import Tally, explained
+from .support_oracle import Found, build, first_change
+from .support_shapes import QUADRICS, SOLIDS, Rng, affine, transform_about, unit
 
 
 def free_solid(rng: Rng) -> rb.Shape:
-    kind = list(SOLIDS)[rng.integers(len(SOLIDS))]
-    solid = SOLIDS[kind](rng, rng.uniform(0.5, 1.5), rng.normal(size=3) * 0.5)
+    makers = [*SOLIDS.values(), *QUADRICS.values()]
+    solid = makers[rng.integers(len(makers))](rng, rng.uniform(0.5, 1.5), rng.normal(size=3) * 0.5)
     if rng.random() < 0.4:
         solid = solid.transformed(transform_about(affine(rng, stretch=1.5), np.zeros(3), rng.normal(size=3) * 0.3))
     return solid
@@ -46,3 +48,27 @@ def expression(rng: Rng, depth: int, *, grid: bool) -> rb.Shape:
 def is_thick(shape: rb.Shape) -> bool:
     """Has it an inside, as far as its bounds tell?"""
     return bool((shape.bounds[1] > shape.bounds[0]).all())
+
+
+def close(found: Found | None, hit: np.void) -> bool:
+    """The first change of membership is the hit: the same face, within the error of t."""
+    if found is None or not hit["hit"]:
+        return (found is None) == (not hit["hit"])
+    return hit["face_id"] in found.faces and abs(float(found.t) - hit["t"]) <= max(
+        1.001 * hit["t_error"], 1e-6 * hit["t"]
+    )
+
+
+def check_expression(tally: Tally, shape: rb.Shape, origins: np.ndarray, directions: np.ndarray) -> None:
+    model = build(shape)
+    for o, d, hit in zip(origins, directions, rb.intersect(shape, origins, directions)):
+        found = first_change(model, o, d)
+        tally.counts["rays"] += 1
+        tally.counts["hits"] += bool(hit["hit"])
+        tally.counts["from inside"] += found is not None and found.inside
+        if close(found, hit):
+            continue
+        if explained(model, o, d, lambda f, h=hit: close(f, h)):
+            tally.counts["within rounding"] += 1
+        else:
+            tally.fail("wrong", shape, o, d, found, hit)

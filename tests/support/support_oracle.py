@@ -105,6 +105,22 @@ def polygon_forms(s: Any, p: Any, d: Any) -> list[Form]:
     return forms
 
 
+def quadric_forms(s: Any, p: Any, d: Any) -> list[Form]:
+    a, b, c, yx, zy, zx, *linear, constant = s.coefficients
+
+    def half_gradient(v: Any) -> list[Any]:
+        """Of the part of second order."""
+        return [
+            a * v[0] + (yx * v[1] + zx * v[2]) / 2,
+            b * v[1] + (yx * v[0] + zy * v[2]) / 2,
+            c * v[2] + (zy * v[1] + zx * v[0]) / 2,
+        ]
+
+    at, way = half_gradient(p), half_gradient(d)
+    q = (dot(at, p) + dot(linear, p) + constant, dot(at, d) + dot(linear, d) / 2, dot(way, d))
+    return [q, *box_forms(s, p, d)]
+
+
 FORMS: dict[type, tuple[Callable[..., list[Form]], int]] = {
     rb.Sphere: (sphere_forms, 1),
     rb.Box: (box_forms, 6),
@@ -112,6 +128,7 @@ FORMS: dict[type, tuple[Callable[..., list[Form]], int]] = {
     rb.Cone: (cone_forms, 3),
     rb.Disk: (disk_forms, 1),
     rb.Polygon: (polygon_forms, 1),
+    rb.Quadric: (quadric_forms, 7),
 }
 
 
@@ -125,6 +142,9 @@ class _Numbers:
                 setattr(self, name, [number(x) for x in value] if isinstance(value, tuple) else number(value))
         if hasattr(shape, "vertices"):
             self.vertices = [[number(float(x)) for x in v] for v in shape.vertices]
+        if hasattr(shape, "coefficients"):
+            self.coefficients = [number(x) for x in shape.coefficients]
+            self.min, self.max = ([number(x) for x in corner] for corner in (shape.clip.min, shape.clip.max))
 
 
 @dataclass

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -112,6 +112,81 @@ def sliver(rng: Rng, size: float, center: Array) -> rb.Shape:
     return rb.Polygon(center + size * corners @ basis(rng).T)
 
 
+def quadric(
+    rng: Rng, size: float, center: Array, form: tuple[float, ...], *, turned: bool, half: Any = 1.0
+) -> rb.Shape:
+    """The quadric (A .. J) of unit coordinates, which are scaled by `size`, perhaps turned, and moved to `center`,
+    within the box of `half` sizes; all coefficients times some factor of 1e-15 .. 1e15."""
+    a, b, c, d, e, f, g, h, i, j = form
+    matrix = np.array([[a, d / 2, f / 2, g / 2], [d / 2, b, e / 2, h / 2], [f / 2, e / 2, c, i / 2]])
+    matrix = np.vstack([matrix, [g / 2, h / 2, i / 2, j]])
+    to_unit = np.eye(4)
+    to_unit[:3, :3] = (basis(rng).T if turned else np.eye(3)) / size
+    to_unit[:3, 3] = -to_unit[:3, :3] @ center
+    m = to_unit.T @ matrix @ to_unit * min(size, 1.0) * max(1.0, size) ** 2 * 10 ** rng.uniform(-15, 15)
+    coefficients = [m[0, 0], m[1, 1], m[2, 2], *(2 * m[[0, 1, 0, 0, 1, 2], [1, 2, 2, 3, 3, 3]]), m[3, 3]]
+    reach = size * np.asarray(half) * np.ones(3)
+    return rb.Quadric(coefficients, rb.Box(center - reach, center + reach))
+
+
+def ellipsoid(rng: Rng, size: float, center: Array) -> rb.Shape:
+    a, b, c = rng.uniform(0.3, 1, 3) ** -2.0
+    return quadric(rng, size, center, (a, b, c, 0, 0, 0, 0, 0, 0, -1), turned=True, half=rng.uniform(0.7, 1.1, 3))
+
+
+def paraboloid(rng: Rng, size: float, center: Array) -> rb.Shape:
+    """Along z, or its matrix of second order would be indefinite after rounding."""
+    a, b = rng.uniform(0.5, 3, 2)
+    return quadric(rng, size, center, (a, b, 0, 0, 0, 0, 0, 0, -1, -0.8), turned=False)
+
+
+def parabolic_cylinder(rng: Rng, size: float, center: Array) -> rb.Shape:
+    return quadric(rng, size, center, (rng.uniform(0.5, 3), 0, 0, 0, 0, 0, 0, 0.3, -1, -0.5), turned=False)
+
+
+def saddle(rng: Rng, size: float, center: Array) -> rb.Shape:
+    a, b = rng.uniform(0.5, 2, 2)
+    return quadric(rng, size, center, (a, -b, 0, 0, 0, 0, 0, 0, -1, 0), turned=True)
+
+
+def one_sheet(rng: Rng, size: float, center: Array) -> rb.Shape:
+    a, b, c = rng.uniform(0.5, 2, 3)
+    return quadric(rng, size, center, (a, b, -c, 0, 0, 0, 0, 0, 0, -rng.uniform(0.01, 0.4)), turned=True)
+
+
+def two_sheets(rng: Rng, size: float, center: Array) -> rb.Shape:
+    a, b, c = rng.uniform(0.5, 2, 3)
+    return quadric(rng, size, center, (a, b, -c, 0, 0, 0, 0, 0, 0, rng.uniform(0.01, 0.2)), turned=True)
+
+
+def double_cone(rng: Rng, size: float, center: Array) -> rb.Shape:
+    a, b, c = rng.uniform(0.5, 2, 3)
+    return quadric(rng, size, center, (a, b, -c, 0, 0, 0, 0, 0, 0, 0), turned=bool(rng.integers(2)))
+
+
+def shell(rng: Rng, size: float, center: Array) -> rb.Shape:
+    """Outside of an ellipsoid, within the box."""
+    a, b, c = rng.uniform(1, 3, 3)
+    return quadric(rng, size, center, (-a, -b, -c, 0, 0, 0, 0, 0, 0, 1), turned=True)
+
+
+def thin_ellipsoid(rng: Rng, size: float, center: Array) -> rb.Shape:
+    a, b, c = (10 ** rng.uniform([-3, -2, 0], 0)) ** -2.0
+    return quadric(rng, size, 0.1 * center, (a, b, c, 0, 0, 0, 0, 0, 0, -1), turned=False)
+
+
+def dish(rng: Rng, size: float, center: Array) -> rb.Shape:
+    """A paraboloid in a flat box."""
+    depth = 10 ** rng.uniform(-4, -1)
+    form = (1, rng.uniform(0.5, 2), 0, 0, 0, 0, 0, 0, -1 / depth, 0)
+    return quadric(rng, size, 0.1 * center, form, turned=False, half=(1, 1, depth))
+
+
+def slab(rng: Rng, size: float, center: Array) -> rb.Shape:
+    """Between two parallel planes."""
+    return quadric(rng, size, 0.01 * center, (0, 0, 1, 0, 0, 0, 0, 0, 0, -(10 ** rng.uniform(-6, -1))), turned=False)
+
+
 Maker = Callable[[Rng, float, Array], rb.Shape]
 SOLIDS: dict[str, Maker] = {
     "sphere": sphere,
@@ -133,7 +208,25 @@ EXTREMES: dict[str, Maker] = {
     "coin": coin,
     "plate": plate,
     "sliver": sliver,
+    "thin_ellipsoid": thin_ellipsoid,
+    "dish": dish,
+    "slab": slab,
 }
+CONVEX_QUADRICS: dict[str, Maker] = {
+    "ellipsoid": ellipsoid,
+    "paraboloid": paraboloid,
+    "parabolic_cylinder": parabolic_cylinder,
+}
+# A line may be inside of these twice.
+HOLLOWS: dict[str, Maker] = {
+    "saddle": saddle,
+    "one_sheet": one_sheet,
+    "two_sheets": two_sheets,
+    "double_cone": double_cone,
+    "shell": shell,
+}
+QUADRICS: dict[str, Maker] = CONVEX_QUADRICS | HOLLOWS
+MAKERS: dict[str, Maker] = PRIMITIVES | EXTREMES | QUADRICS
 
 
 def affine(rng: Rng, *, stretch: float = 3.0, mirror: bool | None = None) -> np.ndarray:
@@ -157,13 +250,19 @@ def make(kind: str, rng: Rng, size: float, center: Array) -> rb.Shape:
     """A shape of a kind, about as large as `size`, near `center`; kinds "x+affine" are transformed there."""
     name, _, change = kind.partition("+")
     if not change:
-        return (PRIMITIVES | EXTREMES)[name](rng, size, center)
-    inner = PRIMITIVES[name](rng, 1.0, rng.normal(size=3))
+        return MAKERS[name](rng, size, center)
+    inner = MAKERS[name](rng, 1.0, rng.normal(size=3))
     return inner.transformed(transform_about(size * affine(rng), np.zeros(3), center))
 
 
-KINDS = [*PRIMITIVES, *(f"{name}+affine" for name in PRIMITIVES)]
-SOLID_KINDS = [*SOLIDS, *(f"{name}+affine" for name in SOLIDS)]
+def with_affine(names: Iterable[str]) -> list[str]:
+    return [*names, *(f"{name}+affine" for name in names)]
+
+
+CONVEX_KINDS = [*with_affine(PRIMITIVES), *with_affine(CONVEX_QUADRICS)]
+HOLLOW_KINDS = with_affine(HOLLOWS)
+KINDS = [*CONVEX_KINDS, *HOLLOW_KINDS]
+SOLID_KINDS = [*with_affine(SOLIDS), *with_affine(CONVEX_QUADRICS), *HOLLOW_KINDS]
 
 
 def middle_and_size(shape: rb.Shape) -> tuple[Array, float]:

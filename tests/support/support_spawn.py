@@ -9,7 +9,7 @@ import numpy as np
 
 import raybound as rb
 
-from .support_shapes import Rng, aimed_rays, f32, make
+from .support_shapes import QUADRICS, Rng, aimed_rays, f32, make
 
 
 def hemisphere(rng: Rng, normals: np.ndarray) -> np.ndarray:
@@ -60,7 +60,8 @@ def spawn(rng: Rng, shape: rb.Shape, rays: int, fan: int) -> Spawned:
 def wild_shape(rng: Rng, kind: str) -> rb.Shape | None:
     """Sizes and coordinates over sixteen orders of magnitude; None where rounding leaves no such shape."""
     size = 10 ** rng.uniform(-8, 8)
-    reach = size * 10 ** rng.uniform(-8, 3) if kind.startswith("polygon") else 10 ** rng.uniform(-8, 8)
+    rounds = kind.startswith("polygon") or kind in QUADRICS  # far from its place rounding leaves none
+    reach = size * 10 ** rng.uniform(-8, 3) if rounds else 10 ** rng.uniform(-8, 8)
     return shape_or_none(kind, rng, size, reach * rng.normal(size=3))
 
 

@@ -58,15 +58,18 @@ template <class T>
 struct SlabRay {
     Vec3<T> near_origin, far_origin, reciprocal;
     T widening;
-    int near_side[3];  // 0 where the ray enters slabs by their lower planes, 1 by their upper
+    // Which planes the ray enters and leaves by, of lower x, y, z, upper x, y, z. (Unsigned: addresses need no more.)
+    std::uint32_t near_plane[3], far_plane[3];
 
     // origin +- origin_error is rounded once: the error has to cover that too, where it is not zero.
     SlabRay(const Vec3<T>& origin, const Vec3<T>& origin_error, const Vec3<T>& direction, T widening_)
         : near_origin(origin), far_origin(origin), widening(widening_) {
         for (int axis = 0; axis < 3; ++axis) {
             reciprocal[axis] = T(1) / direction[axis];  // infinite where the direction is 0
-            near_side[axis] = reciprocal[axis] < T(0);
-            const T error = near_side[axis] ? -origin_error[axis] : origin_error[axis];
+            const bool falling = reciprocal[axis] < T(0);
+            near_plane[axis] = std::uint32_t(axis + (falling ? 3 : 0));
+            far_plane[axis] = std::uint32_t(axis + (falling ? 0 : 3));
+            const T error = falling ? -origin_error[axis] : origin_error[axis];
             near_origin[axis] = origin[axis] + error;
             far_origin[axis] = origin[axis] - error;
         }
@@ -83,14 +86,14 @@ struct BoxInterval {
     V near, far;
 };
 
-// plane(side, axis): the lower (0) or upper (1) planes.
+// plane(i): the planes of number i, as above.
 template <class V, class T, class Planes>
 inline BoxInterval<V> slab_interval(const SlabRay<T>& ray, T t_max, const Planes& plane) {
     V near(T(0)), far(infinity<T>);
     for (int axis = 0; axis < 3; ++axis) {
         const V r(ray.reciprocal[axis]);
-        near = maximum(near, (plane(ray.near_side[axis], axis) - V(ray.near_origin[axis])) * r);
-        far = minimum(far, (plane(1 - ray.near_side[axis], axis) - V(ray.far_origin[axis])) * r);
+        near = maximum(near, (plane(ray.near_plane[axis]) - V(ray.near_origin[axis])) * r);
+        far = minimum(far, (plane(ray.far_plane[axis]) - V(ray.far_origin[axis])) * r);
     }
     return {near, minimum(V(t_max), far * V(ray.widening))};
 }
@@ -98,7 +101,8 @@ inline BoxInterval<V> slab_interval(const SlabRay<T>& ray, T t_max, const Planes
 // Does the ray cross the box within [0, t_max]? `entry` tells where, at the earliest.
 template <class T>
 inline bool crosses(const Box& box, const SlabRay<T>& ray, T t_max, T* entry) {
-    const auto plane = [&box](int side, int axis) { return T(side ? box.upper[axis] : box.lower[axis]); };
+    const float planes[6] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
+    const auto plane = [&planes](std::uint32_t i) { return T(planes[i]); };
     const BoxInterval<T> inside = slab_interval<T>(ray, t_max, plane);
     *entry = inside.near;
     return inside.near <= inside.far;

@@ -105,8 +105,8 @@ class Builder {
   public:
     static void set_child(BvhNode& node, std::size_t k, const Box& box) {
         for (int axis = 0; axis < 3; ++axis) {
-            node.plane[0][axis][k] = box.lower[axis];
-            node.plane[1][axis][k] = box.upper[axis];
+            node.plane[axis][k] = box.lower[axis];
+            node.plane[axis + 3][k] = box.upper[axis];
         }
     }
 
@@ -225,6 +225,18 @@ class Builder {
 Bvh::Bvh(std::span<const Box> boxes, const Leaves& leaves) {
     if (boxes.empty()) return;
     Builder(boxes, leaves, nodes_).build();
+    nodes_.shrink_to_fit();
+}
+
+float Bvh::cost() const {
+    double area = 0;
+    for (const BvhNode& node : nodes_)
+        for (std::size_t k = 0; k < pack_width; ++k) {
+            const Vec3d size{double(node.plane[3][k]) - node.plane[0][k], double(node.plane[4][k]) - node.plane[1][k],
+                             double(node.plane[5][k]) - node.plane[2][k]};
+            if (size.x >= 0) area += size.x * size.y + size.y * size.z + size.z * size.x;
+        }
+    return float(area);
 }
 
 void Bvh::refit(std::uint32_t slot, const Box& leaf_box) {
@@ -234,8 +246,8 @@ void Bvh::refit(std::uint32_t slot, const Box& leaf_box) {
         Builder::set_child(node, slot % pack_width, box);
         box = {};
         for (std::size_t k = 0; k < pack_width; ++k)
-            box.extend(Box{{node.plane[0][0][k], node.plane[0][1][k], node.plane[0][2][k]},
-                           {node.plane[1][0][k], node.plane[1][1][k], node.plane[1][2][k]}});
+            box.extend(Box{{node.plane[0][k], node.plane[1][k], node.plane[2][k]},
+                           {node.plane[3][k], node.plane[4][k], node.plane[5][k]}});
         slot = node.parent;
     }
 }

@@ -13,7 +13,7 @@
 namespace raybound {
 
 struct alignas(64) BvhNode {
-    float plane[2][3][pack_width];    // lower, upper; by axis; absent children have an empty box
+    float plane[6][pack_width];       // lower x, y, z, upper x, y, z; absent children have an empty box
     std::uint32_t child[pack_width];  // a node, or what the maker of leaves returned, with the high bit set
     std::uint32_t parent;             // the node and slot that lead here: node * 8 + slot
 };
@@ -40,6 +40,9 @@ class Bvh {
     // Gives the leaf at a slot another box, and all nodes above it theirs.
     void refit(std::uint32_t slot, const Box& box);
 
+    // What a search costs, up to a factor: the area of all boxes. It grows as refitting loosens the tree.
+    float cost() const;
+
     // Calls visit(leaf, near) for each leaf whose box the ray crosses within [0, t_max], nearer ones first; `near` is
     // the entry into its box. visit may lower t_max. Boxes that begin exactly at t_max are visited: a tie has to be
     // settled by ids.
@@ -62,7 +65,7 @@ inline constexpr int stack_size = 72 * (pack_width - 1) + 1;
 // A bit for each child that the ray crosses within [0, t_max], and where it enters each.
 template <class T>
 inline std::uint32_t crossed_children(const BvhNode& node, const SlabRay<T>& ray, T t_max, Pack<T>& near) {
-    const auto plane = [&node](int side, int axis) { return Pack<T>::load(node.plane[side][axis]); };
+    const auto plane = [&node](std::uint32_t i) { return Pack<T>::load(node.plane[i]); };
     const BoxInterval<Pack<T>> inside = slab_interval<Pack<T>>(ray, t_max, plane);
     near = inside.near;
     return bits(inside.near <= inside.far);

@@ -8,7 +8,7 @@ namespace {
 
 void fill(SpherePack& pack, std::uint32_t lane, const Leaf& leaf) {
     for (int axis = 0; axis < 3; ++axis) pack.center[axis][lane] = float(leaf.first[axis]);
-    pack.radius[lane] = float(leaf.radius);
+    pack.radius[lane] = float(leaf.radius());
 }
 
 void fill(TrianglePack& pack, std::uint32_t lane, std::span<const Vec3d> vertices) {
@@ -41,6 +41,9 @@ Accelerator::Accelerator(const Geometry& geometry) : places_(geometry.primitives
         [](int kind) { return Kind(kind) == Kind::single ? 1 : pack_width; },
         [&](std::span<const std::uint32_t> items, std::uint32_t slot) { return make_leaf(geometry, items, slot); }};
     bvh_ = Bvh(boxes, leaves);
+    built_cost_ = bvh_.cost();
+    spheres_.shrink_to_fit();
+    triangles_.shrink_to_fit();
 }
 
 std::uint32_t Accelerator::make_leaf(const Geometry& geometry, std::span<const std::uint32_t> items,

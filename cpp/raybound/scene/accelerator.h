@@ -35,6 +35,9 @@ class Accelerator {
     const Bvh& bvh() const { return bvh_; }
     std::size_t bytes() const;
 
+    // Have updates made the tree so bad that it should be built anew?
+    bool is_degraded() const { return bvh_.cost() > 1.5f * built_cost_; }
+
     // Gives a primitive that stays of its kind its new place. False if that is not possible: then the accelerator must
     // be made anew, as it must when primitives come or go.
     bool update(const Geometry& geometry, std::uint32_t primitive);
@@ -70,6 +73,7 @@ class Accelerator {
     std::vector<SpherePack> spheres_;
     std::vector<TrianglePack> triangles_;
     std::vector<Place> places_;
+    float built_cost_ = 0;
 };
 
 template <class T, class Visit>

@@ -1,7 +1,9 @@
 #include "raybound/scene/document.h"
 
 #include <algorithm>
+#include <atomic>
 #include <stdexcept>
+#include <utility>
 
 namespace raybound {
 
@@ -19,7 +21,16 @@ ObjectRecord checked_object(std::int32_t id, ShapePointer shape, MaterialPointer
     if (!(reach <= 2 * largest_coordinate))
         throw std::invalid_argument("Scene: shape must keep its coordinates within 2**60 when placed, got " +
                                     format(reach));
-    return {id, std::move(shape), std::move(material), placed};
+    return {id, std::move(shape), std::move(material),
+            placed.is_identity() ? nullptr : std::make_shared<const Affine>(placed)};
+}
+
+// What others have read before they let go must not be overtaken by what is written now.
+template <class T>
+bool is_sole_owner(const std::shared_ptr<T>& pointer) {
+    const bool sole = pointer.use_count() == 1;
+    std::atomic_thread_fence(std::memory_order_acquire);
+    return sole;
 }
 
 template <class Records>
@@ -44,33 +55,41 @@ Document::Document(const Document& other) {
     state_ = other.before_ ? *other.before_ : other.state_;
 }
 
+SceneContent& Document::writable() {
+    if (!is_sole_owner(state_.content)) state_.content = std::make_shared<SceneContent>(*state_.content);
+    return *state_.content;
+}
+
 void Document::edited() { ++state_.revision; }
 
 std::int32_t Document::add_object(ShapePointer shape, MaterialPointer material, const Affine& transform) {
     const std::scoped_lock lock(mutex_);
-    state_.content.objects.push_back(
-        checked_object(state_.next_object, std::move(shape), std::move(material), transform));
+    ObjectRecord record = checked_object(state_.next_object, std::move(shape), std::move(material), transform);
+    writable().objects.push_back(std::move(record));
     edited();
     return state_.next_object++;
 }
 
 void Document::set_object(std::int32_t id, ShapePointer shape, MaterialPointer material, const Affine& transform) {
     const std::scoped_lock lock(mutex_);
-    const auto record = find(state_.content.objects, id, "object");
-    *record = checked_object(id, std::move(shape), std::move(material), transform);
+    const auto at = find(state_.content->objects, id, "object") - state_.content->objects.begin();
+    ObjectRecord record = checked_object(id, std::move(shape), std::move(material), transform);
+    writable().objects[std::size_t(at)] = std::move(record);
     edited();
 }
 
 void Document::remove_object(std::int32_t id) {
     const std::scoped_lock lock(mutex_);
-    state_.content.objects.erase(find(state_.content.objects, id, "object"));
+    find(state_.content->objects, id, "object");  // throws before anything is copied
+    auto& objects = writable().objects;
+    objects.erase(find(objects, id, "object"));
     edited();
 }
 
 std::int32_t Document::add_light(LightPointer value) {
     if (!value) throw std::invalid_argument("Scene: light must be given");
     const std::scoped_lock lock(mutex_);
-    state_.content.lights.push_back({state_.next_light, std::move(value)});
+    writable().lights.push_back({state_.next_light, std::move(value)});
     edited();
     return state_.next_light++;
 }
@@ -78,27 +97,30 @@ std::int32_t Document::add_light(LightPointer value) {
 void Document::set_light(std::int32_t id, LightPointer value) {
     if (!value) throw std::invalid_argument("Scene: light must be given");
     const std::scoped_lock lock(mutex_);
-    find(state_.content.lights, id, "light")->light = std::move(value);
+    find(state_.content->lights, id, "light");
+    find(writable().lights, id, "light")->light = std::move(value);
     edited();
 }
 
 void Document::remove_light(std::int32_t id) {
     const std::scoped_lock lock(mutex_);
-    state_.content.lights.erase(find(state_.content.lights, id, "light"));
+    find(state_.content->lights, id, "light");
+    auto& lights = writable().lights;
+    lights.erase(find(lights, id, "light"));
     edited();
 }
 
 void Document::set_ambient(const Vec3f& ambient) {
     require_colour("Scene", "ambient", ambient);
     const std::scoped_lock lock(mutex_);
-    state_.content.ambient = ambient;
+    writable().ambient = ambient;
     edited();
 }
 
 void Document::set_background(const Vec3f& background) {
     require_colour("Scene", "background", background);
     const std::scoped_lock lock(mutex_);
-    state_.content.background = background;
+    writable().background = background;
     edited();
 }
 
@@ -129,15 +151,16 @@ std::int64_t Document::revision() const {
 
 Boxd Document::object_bounds(std::int32_t id) const {
     const std::scoped_lock lock(mutex_);
-    const auto record = find(state_.content.objects, id, "object");
-    return shape_bounds(*record->shape, record->transform);
+    const auto record = find(state_.content->objects, id, "object");
+    return shape_bounds(*record->shape, record->placement());
 }
 
 std::optional<Boxd> Document::bounds() const {
     const std::scoped_lock lock(mutex_);
-    if (state_.content.objects.empty()) return std::nullopt;
+    if (state_.content->objects.empty()) return std::nullopt;
     Boxd box;
-    for (const ObjectRecord& record : state_.content.objects) box.extend(shape_bounds(*record.shape, record.transform));
+    for (const ObjectRecord& record : state_.content->objects)
+        box.extend(shape_bounds(*record.shape, record.placement()));
     return box;
 }
 
@@ -150,7 +173,14 @@ SnapshotPointer Document::snapshot() const {
         if (snapshot_ && snapshot_->revision() == current.revision) return snapshot_;
         state = current;
     }
-    snapshot_ = std::make_shared<const Snapshot>(std::move(state.content), state.revision);
+    // The earlier snapshot is copied, or taken apart if nobody else holds it.
+    const std::shared_ptr<Snapshot> earlier = std::exchange(snapshot_, nullptr);
+    if (!earlier)
+        snapshot_ = std::make_shared<Snapshot>(state.content, state.revision);
+    else if (is_sole_owner(earlier))
+        snapshot_ = std::make_shared<Snapshot>(std::move(*earlier), state.content, state.revision);
+    else
+        snapshot_ = std::make_shared<Snapshot>(*earlier, state.content, state.revision);
     return snapshot_;
 }
 

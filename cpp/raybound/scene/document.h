@@ -37,19 +37,21 @@ class Document {
     SnapshotPointer snapshot() const;
 
   private:
+    // The content is shared with snapshots, and copied before it is written where it is.
     struct State {
-        SceneContent content;
+        std::shared_ptr<SceneContent> content = std::make_shared<SceneContent>();
         std::int32_t next_object = 0, next_light = 0;
         std::int64_t revision = 0;
     };
 
+    SceneContent& writable();
     void edited();
 
     mutable std::mutex mutex_;
     State state_;
     std::optional<State> before_;  // during an edit block: what everybody else sees
     mutable std::mutex snapshot_mutex_;
-    mutable SnapshotPointer snapshot_;
+    mutable std::shared_ptr<Snapshot> snapshot_;
 };
 
 }  // namespace raybound

@@ -1,13 +1,54 @@
 #include "raybound/scene/snapshot.h"
 
+#include <algorithm>
+#include <set>
+
 namespace raybound {
 
-Snapshot::Snapshot(SceneContent content, std::int64_t revision) : content_(std::move(content)), revision_(revision) {
-    for (std::size_t i = 0; i < content_.objects.size(); ++i) {
-        const ObjectRecord& object = content_.objects[i];
-        add_primitive(geometry_, std::uint32_t(i), *object.shape, object.transform);
-    }
+Snapshot::Snapshot(ContentPointer content, std::int64_t revision) : content_(std::move(content)), revision_(revision) {
+    build();
+}
+
+Snapshot::Snapshot(Snapshot earlier, ContentPointer content, std::int64_t revision)
+    : content_(std::move(content)),
+      revision_(revision),
+      geometry_(std::move(earlier.geometry_)),
+      accelerator_(std::move(earlier.accelerator_)),
+      replaced_(earlier.replaced_) {
+    if (!update(*earlier.content_)) build();
+}
+
+void Snapshot::build() {
+    geometry_ = {};
+    geometry_.primitives.reserve(objects().size());
+    geometry_.leaves.reserve(objects().size());
+    for (std::size_t i = 0; i < objects().size(); ++i)
+        add_primitive(geometry_, std::uint32_t(i), *objects()[i].shape, objects()[i].placement());
     accelerator_ = Accelerator(geometry_);
+    replaced_ = 0;
+}
+
+// False if that is not possible, or no longer worth it: objects came or went, a kind has changed, the tree has become
+// bad, or more has been left behind than is in use.
+bool Snapshot::update(const SceneContent& before) {
+    const auto& now = objects();
+    if (&before == content_.get()) return true;
+    if (!std::ranges::equal(before.objects, now, {}, &ObjectRecord::id, &ObjectRecord::id)) return false;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (now[i].is_placed_as(before.objects[i])) continue;
+        if (++replaced_ > now.size()) return false;
+        replace_primitive(geometry_, std::uint32_t(i), *now[i].shape, now[i].placement());
+        if (!accelerator_.update(geometry_, std::uint32_t(i))) return false;
+    }
+    return !accelerator_.is_degraded();
+}
+
+std::size_t Snapshot::bytes() const {
+    std::set<const MeshData*> meshes;
+    for (const MeshInstance& mesh : geometry_.meshes) meshes.insert(mesh.data);
+    std::size_t shared = 0;
+    for (const MeshData* mesh : meshes) shared += mesh->bytes();
+    return geometry_.bytes() + accelerator_.bytes() + objects().capacity() * sizeof(ObjectRecord) + shared;
 }
 
 }  // namespace raybound

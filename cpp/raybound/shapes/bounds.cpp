@@ -1,5 +1,6 @@
 // Bounds and frames of the primitives.
 #include "raybound/shapes/mesh.h"
+#include "raybound/shapes/unit_quadric.h"
 
 namespace raybound {
 
@@ -15,6 +16,14 @@ void extend_around(Boxd& box, const Vec3d& center, const Vec3d& half) {
     box.extend(center + half);
 }
 
+// The farthest points of a quadric's solid in the six directions of the world.
+void extend_around_quadric(Boxd& box, const UnitQuadric& q, const Affine& frame) {
+    for (int i = 0; i < 3; ++i) {
+        box.upper[i] = frame.offset[i] + enclose_reach(q, frame.linear.row[i]);
+        box.lower[i] = frame.offset[i] - enclose_reach(q, -frame.linear.row[i]);
+    }
+}
+
 Boxd frame_bounds(const Shape& shape, const Affine& frame) {
     const Vec3d x = frame.linear.column(0), y = frame.linear.column(1), z = frame.linear.column(2);
     const Vec3d round = disk_extent(x, y);
@@ -26,6 +35,9 @@ Boxd frame_bounds(const Shape& shape, const Affine& frame) {
             break;
         case ShapeKind::box:
             extend_around(box, frame.offset, absolute(x) + absolute(y) + absolute(z));
+            break;
+        case ShapeKind::quadric:
+            extend_around_quadric(box, unit_quadric(shape), frame);
             break;
         case ShapeKind::cylinder:
         case ShapeKind::cone: {
@@ -63,7 +75,8 @@ Affine unit_frame(const Shape& shape) {
     switch (shape.kind()) {
         case ShapeKind::sphere:
             return {{{r, 0, 0}, {0, r, 0}, {0, 0, r}}, first};
-        case ShapeKind::box: {
+        case ShapeKind::box:
+        case ShapeKind::quadric: {
             const Vec3d half = (second - first) * 0.5;
             return {{{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}}, (first + second) * 0.5};
         }

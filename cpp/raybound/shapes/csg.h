@@ -50,8 +50,15 @@ class CsgEvaluation {
   private:
     void push_leaf(std::uint32_t index, const CsgNode& node) {
         const Leaf& leaf = geometry_.leaves[node.first];
-        const Span<T> span = leaf_span(geometry_, leaf, ray_);
-        if (!span.hit) return;
+        if (leaf.kind == LeafKind::quadric) {
+            const Spans<T> spans = quadric_leaf_spans(geometry_, leaf, ray_);
+            for (int i = 0; i < spans.count; ++i) push_span(index, leaf, spans.part[i]);
+        } else if (const Span<T> span = leaf_span(geometry_, leaf, ray_); span.hit) {
+            push_span(index, leaf, span);
+        }
+    }
+
+    void push_span(std::uint32_t index, const Leaf& leaf, const Span<T>& span) {
         stack_.push_back({{span.t_in, boundary_error(geometry_, leaf, span.face_in, span.t_in, ray_), index,
                            span.face_in, span.in_ahead},
                           {span.t_out, boundary_error(geometry_, leaf, span.face_out, span.t_out, ray_), index,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "raybound/shapes/unit_quadric.h"
+
 namespace raybound {
 
 namespace {
@@ -129,6 +131,15 @@ void place_mesh(Geometry& geometry, Leaf& leaf, const Shape& shape, const Affine
     geometry.frames.push_back(frame);
 }
 
+// The largest row sums of |A| |B| / R and of |A| |center|, which bound what the frame's rounding does (derivation D7).
+Quadric make_quadric(const Shape& shape, const Frame& frame, const Affine& unit) {
+    Quadric quadric = local_quadric(unit_quadric(shape), frame.radius);
+    const Mat3<double> size = absolute(frame.linear_wide);
+    quadric.stretch = norm_infinity(size * absolute(unit.linear)) / double(frame.radius);
+    quadric.center = max_component(size * absolute(frame.center_wide));
+    return quadric;
+}
+
 // Spheres under a similarity without rotation, and boxes under translation and scaling, need no frame.
 bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
     const bool sphere = shape.kind() == ShapeKind::sphere && is_scaled_identity(placement.linear);
@@ -138,13 +149,13 @@ bool place_in_world(Leaf& leaf, const Shape& shape, const Affine& placement) {
     leaf.first = placement.point(first);
     leaf.surface_error = placement_error(placement, first);
     if (sphere) {
-        leaf.radius = placement.linear.row[0].x * double(shape.radius());
+        leaf.second.x = placement.linear.row[0].x * double(shape.radius());
         leaf.surface_error += placement_error(placement, {double(shape.radius()), 0, 0});
     } else {
         leaf.second = placement.point(second);
         leaf.surface_error = maximum(leaf.surface_error, placement_error(placement, second));
     }
-    const double size = sphere ? leaf.radius : min_component(leaf.second - leaf.first);
+    const double size = sphere ? leaf.radius() : min_component(leaf.second - leaf.first);
     if (!(size >= 0.5 * double(least_size)))
         throw std::invalid_argument("Shape: transforms must keep sizes at least 2**-60, got " + format(size));
     return true;
@@ -164,6 +175,10 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
         if (frame.slope == 0 && leaf.kind == LeafKind::cone) leaf.kind = LeafKind::cylinder;
         leaf.surface_error = frame_surface_error(frame, unit);
         leaf.frame = std::int32_t(geometry.frames.size());
+        if (leaf.kind == LeafKind::quadric) {
+            leaf.polygon = std::uint32_t(geometry.quadrics.size());
+            geometry.quadrics.push_back(make_quadric(shape, frame, unit));
+        }
         geometry.frames.push_back(frame);
     }
     geometry.leaves.push_back(leaf);
@@ -214,21 +229,27 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
 std::size_t Geometry::bytes() const {
     return primitives.size() * sizeof(Primitive) + leaves.size() * sizeof(Leaf) + frames.size() * sizeof(Frame) +
            polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3d) +
-           meshes.size() * sizeof(MeshInstance) + csg_nodes.size() * sizeof(CsgNode) +
-           csg_children.size() * sizeof(std::uint32_t);
+           meshes.size() * sizeof(MeshInstance) + quadrics.size() * sizeof(Quadric) +
+           csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
 }
 
-void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {
+void replace_primitive(Geometry& geometry, std::uint32_t index, const Shape& shape, const Affine& placement) {
     const auto first_leaf = std::uint32_t(geometry.leaves.size());
     Affine map = placement;
     const Shape& inner = strip_transforms(shape, map);
-    Primitive primitive;
-    primitive.object = object;
+    Primitive& primitive = geometry.primitives[index];
     primitive.is_csg = !inner.parts().empty();
     std::int32_t face = 0;
-    primitive.root = primitive.is_csg ? add_csg(geometry, inner, map, face) : add_leaf(geometry, inner, map);
+    primitive.root =
+        (primitive.is_csg ? add_csg(geometry, inner, map, face) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
     primitive.bounds = primitive_bounds(geometry, inner, map, first_leaf);
+}
+
+void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement) {
+    Primitive primitive;
+    primitive.object = object;
     geometry.primitives.push_back(primitive);
+    replace_primitive(geometry, std::uint32_t(geometry.primitives.size() - 1), shape, placement);
 }
 
 }  // namespace raybound

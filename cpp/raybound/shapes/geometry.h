@@ -6,10 +6,11 @@
 
 #include "raybound/shapes/mesh.h"
 #include "raybound/shapes/polygon.h"
+#include "raybound/shapes/quadric.h"
 
 namespace raybound {
 
-enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon, mesh };
+enum class LeafKind : std::uint8_t { sphere, box, cylinder, cone, disk, polygon, quadric, mesh };
 
 // The map y = A (x - center) from the world to a leaf's own coordinates, in which the shape has the size R, a power of
 // two near its size in the world. The *double* map is the truth; the float one approximates it within the errors that
@@ -26,17 +27,19 @@ struct Frame {
     double inverse_norm = 1;  // of A^-1: how far a local distance reaches in the world
 };
 
-// A convex primitive. Without a frame it stands in world coordinates, placed in double: a sphere (first, radius), a box
-// (first, second), a polygon. surface_error bounds how far the surface that the leaf describes is from the one the user
-// described.
+// A primitive, convex but for quadrics. Without a frame it stands in world coordinates, placed in double: a sphere
+// (first, radius()), a box (first, second), a polygon. surface_error bounds how far the surface that the leaf describes
+// is from the one the user described.
 struct Leaf {
     LeafKind kind = LeafKind::sphere;
     std::int32_t frame = -1;
-    std::uint32_t polygon = 0;  // or mesh
+    std::uint32_t polygon = 0;  // index into polygons, quadrics or meshes
     float surface_error = 0;
     Vec3d first, second;
-    double radius = 0;
+
+    double radius() const { return second.x; }  // of a sphere
 };
+static_assert(sizeof(Leaf) == 64);
 
 // A mesh in its place; the data are the shape's.
 struct MeshInstance {
@@ -60,9 +63,10 @@ struct CsgNode {
 struct Primitive {
     Box bounds;
     std::uint32_t object = 0;
-    std::uint32_t root = 0;  // of leaves, or of CSG nodes
-    bool is_csg = false;
+    std::uint32_t root : 31 = 0;  // of leaves, or of CSG nodes
+    bool is_csg : 1 = false;
 };
+static_assert(sizeof(Primitive) == 32);
 
 struct Geometry {
     std::vector<Primitive> primitives;
@@ -71,6 +75,7 @@ struct Geometry {
     std::vector<PolygonPlane> polygons;
     std::vector<Vec3d> vertices;
     std::vector<MeshInstance> meshes;
+    std::vector<Quadric> quadrics;
     std::vector<CsgNode> csg_nodes;
     std::vector<std::uint32_t> csg_children;
 
@@ -80,7 +85,10 @@ struct Geometry {
     std::size_t bytes() const;
 };
 
-// Adds a placed shape as one primitive of `object`.
+// Adds a placed shape as one primitive of `object`. Throws std::invalid_argument if it cannot be placed so.
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement);
+
+// Gives a primitive another shape or place. What it was made of before stays behind, unused.
+void replace_primitive(Geometry& geometry, std::uint32_t primitive, const Shape& shape, const Affine& placement);
 
 }  // namespace raybound

@@ -7,8 +7,21 @@ namespace raybound {
 
 namespace {
 
+// The first boundary ahead of a quadric's one or two parts.
+template <class W>
+Crossing<W> cross_quadric(const Geometry& geometry, std::uint32_t index, const Ray<W>& ray) {
+    const Spans<W> spans = quadric_leaf_spans(geometry, geometry.leaves[index], ray);
+    for (int i = 0; i < spans.count; ++i) {
+        const Span<W>& span = spans.part[i];
+        if (span.in_ahead) return {span.t_in, index, span.face_in, 0, true, true};
+        if (span.out_ahead) return {span.t_out, index, span.face_out, 0, true, false};
+    }
+    return {infinity<W>, 0, 0, 0, Mask<W>(false), Mask<W>(false)};
+}
+
 template <class W>
 Crossing<W> cross_leaf(const Geometry& geometry, std::uint32_t index, const Ray<W>& ray) {
+    if (geometry.leaves[index].kind == LeafKind::quadric) return cross_quadric(geometry, index, ray);
     const Span<W> span = leaf_span_ahead(geometry, geometry.leaves[index], ray);
     const W t = select(span.in_ahead, span.t_in, span.t_out);
     const int face = select(span.in_ahead, span.face_in, span.face_out);
@@ -32,7 +45,7 @@ Crossing<W> cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<W>
 // cone, where the gradient vanishes, no farther than the apex.
 template <class W>
 W distance_anywhere(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<W>& p) {
-    if (leaf.frame < 0) return norm1(p - Vec3<W>(leaf.first)) + W(leaf.radius);
+    if (leaf.frame < 0) return norm1(p - Vec3<W>(leaf.first)) + W(leaf.radius());
     const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
     const LocalPoint<W> local = to_local(frame, p);
     const W radius(frame.radius), reach = W(2) * W(frame.inverse_norm);  // the norm is of components: sqrt(3) at most
@@ -49,10 +62,16 @@ template <class W>
 W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const Vec3<W>& p, const Surface<W>& surface,
                    const Vec3<W>& normal) {
     const W squared = dot(surface.gradient, surface.gradient);
-    const W residual = abs(surface.form.value) + W(4) * surface.form.band;
+    const bool quadric = leaf.kind == LeafKind::quadric && face == 0;
+    const W residual = abs(surface.form.value) + W(4) * surface.form.band * (quadric ? quadric_margin<W> : W(1));
     const W bend = abs(leaf_curvature(geometry, leaf, face, p, normal));
-    if (residual * bend <= W(0x1p-11) * squared) return residual / sqrt(squared) * (W(1) + W(0x1p-10));
-    return distance_anywhere(geometry, leaf, face, p);
+    const W distance = residual * bend <= W(0x1p-11) * squared ? residual / sqrt(squared) * (W(1) + W(0x1p-10))
+                                                               : distance_anywhere(geometry, leaf, face, p);
+    if (!quadric) return distance;
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    const Quadric& form = geometry.quadrics[leaf.polygon];
+    const W anyhow = quadric_distance(form, to_local(frame, p).y, surface.form, residual);
+    return minimum(distance, W(2) * W(frame.inverse_norm) * anyhow);
 }
 
 // A point of the wide type on a face, and what is known there.
@@ -183,7 +202,7 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
     if (primitive.is_csg) return false;
     const Leaf& leaf = geometry.leaves[primitive.root];
-    return leaf.kind != LeafKind::mesh && (outward || is_sheet(leaf));
+    return leaf.kind != LeafKind::mesh && leaf.kind != LeafKind::quadric && (outward || is_sheet(leaf));
 }
 
 // The number types that rays are traced with today. (float filters and shades, double decides.)

@@ -88,7 +88,7 @@ inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T
     }
     const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
     if (leaf.frame >= 0) return framed_span(leaf, geometry.frames[std::size_t(leaf.frame)], local);
-    if (leaf.kind == LeafKind::sphere) return sphere_span(local, T(leaf.radius));
+    if (leaf.kind == LeafKind::sphere) return sphere_span(local, T(leaf.radius()));
     return box_span(local, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
 }
 
@@ -96,17 +96,25 @@ inline Span<T> leaf_span(const Geometry& geometry, const Leaf& leaf, const Ray<T
 template <class T>
 inline Span<T> leaf_span_ahead(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
     if (leaf.kind == LeafKind::sphere && leaf.frame < 0)
-        return sphere_span_ahead(sphere_ray(Vec3<T>(leaf.first), ray.origin, ray.direction), T(leaf.radius));
+        return sphere_span_ahead(sphere_ray(Vec3<T>(leaf.first), ray.origin, ray.direction), T(leaf.radius()));
     return leaf_span(geometry, leaf, ray);
+}
+
+// What a line has inside of a quadric, which need not be convex.
+template <class T>
+inline Spans<T> quadric_leaf_spans(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    return quadric_spans(geometry.quadrics[leaf.polygon], leaf_ray(geometry, leaf, ray));
 }
 
 // A cheap filter in T before the deciding type is asked: no only if the ray *certainly* does not meet the leaf's
 // quadric (derivation D2). Flat faces have none: their own box is filter enough.
 template <class T>
 inline Mask<T> may_cross(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    if (leaf.kind == LeafKind::quadric)
+        return !quadric_missed(geometry.quadrics[leaf.polygon], leaf_ray(geometry, leaf, ray));
     if (leaf.kind != LeafKind::sphere && leaf.kind != LeafKind::cylinder && leaf.kind != LeafKind::cone) return true;
     const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
-    const T radius = leaf.frame >= 0 ? T(geometry.frames[std::size_t(leaf.frame)].radius) : T(leaf.radius);
+    const T radius = leaf.frame >= 0 ? T(geometry.frames[std::size_t(leaf.frame)].radius) : T(leaf.radius());
     if (leaf.kind == LeafKind::sphere) return !certainly_missed(sphere_quadratic(local, radius));
     if (leaf.kind == LeafKind::cylinder) return !certainly_missed(cylinder_quadratic(local, radius));
     const Quadratic<T> q = cone_quadratic(local, radius, T(geometry.frames[std::size_t(leaf.frame)].slope));
@@ -164,13 +172,17 @@ inline Surface<T> leaf_surface(const Geometry& geometry, const Leaf& leaf, int f
     if (leaf.frame >= 0) {
         const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
         const Mat3<T>& linear = frame_linear<T>(frame);
-        Surface<T> surface = framed_surface(leaf, frame, face, to_local(frame, p), linear * direction);
+        const LocalPoint<T> local = to_local(frame, p);
+        const Vec3<T> d = linear * direction;
+        Surface<T> surface = leaf.kind == LeafKind::quadric
+                                 ? quadric_surface(geometry.quadrics[leaf.polygon], local.y, d, face, local.error)
+                                 : framed_surface(leaf, frame, face, local, d);
         surface.gradient = transpose_times(linear, surface.gradient);
         return surface;
     }
     if (leaf.kind == LeafKind::sphere) {
         const LocalPoint<T> local = to_sphere(leaf, p);
-        return sphere_surface(local.y, direction, T(leaf.radius), local.error);
+        return sphere_surface(local.y, direction, T(leaf.radius()), local.error);
     }
     return box_surface(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second), Vec3<T>{});
 }
@@ -209,9 +221,11 @@ inline UV<T> leaf_uv(const Geometry& geometry, const Leaf& leaf, int face, const
     }
     if (leaf.frame >= 0) {
         const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
-        return framed_uv(leaf, frame, face, to_local(frame, p).y);
+        const Vec3<T> y = to_local(frame, p).y;
+        if (leaf.kind == LeafKind::quadric) return quadric_uv(geometry.quadrics[leaf.polygon], y, face);
+        return framed_uv(leaf, frame, face, y);
     }
-    if (leaf.kind == LeafKind::sphere) return sphere_uv(to_sphere(leaf, p).y, T(leaf.radius));
+    if (leaf.kind == LeafKind::sphere) return sphere_uv(to_sphere(leaf, p).y, T(leaf.radius()));
     return box_uv(p, face, Vec3<T>(leaf.first), Vec3<T>(leaf.second));
 }
 

@@ -52,9 +52,8 @@ template <class T>
 inline std::uint32_t may_cross(const SpherePack& pack, const Vec3<T>& origin, const Vec3<T>& direction) {
     using P = Pack<T>;
     const Vec3<P> center{P::load(pack.center[0]), P::load(pack.center[1]), P::load(pack.center[2])};
-    const Quadratic<P> q = sphere_quadratic(sphere_ray(center, broadcast(origin), broadcast(direction)),
-                                            filter_radius(center, P::load(pack.radius)));
-    return bits(!certainly_missed(q)) & pack.lanes;
+    const P radius = filter_radius(center, P::load(pack.radius)), reach(norm1(direction));
+    return bits(!sphere_missed(center, radius, broadcast(origin), broadcast(direction), reach)) & pack.lanes;
 }
 
 template <class T>

@@ -1,10 +1,12 @@
 #include "raybound/shapes/shape.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
 #include "raybound/shapes/mesh.h"
 #include "raybound/shapes/polygon.h"
+#include "raybound/shapes/unit_quadric.h"
 
 namespace raybound {
 
@@ -60,6 +62,22 @@ void require_convex(const std::vector<Vec3f>& vertices, const Vec3d& unit, doubl
     }
     if (std::abs(turns - 6.283185307179586) > 0.1)
         refuse("Polygon: vertices must go around once, they cross themselves");
+}
+
+std::string format_all(const std::vector<float>& values) {
+    std::string text;
+    for (const float value : values) text += (text.empty() ? "(" : ", ") + format(double(value));
+    return text + ")";
+}
+
+// The solid q <= 0 of ten coefficients, as a message says it.
+void require_quadric(const std::vector<float>& c) {
+    const std::string head = "Quadric: coefficients must ";
+    if (c.size() != 10) refuse(head + "be ten numbers (A .. J), got " + std::to_string(c.size()));
+    for (const float value : c)
+        if (!std::isfinite(value)) refuse(head + "be finite, got " + format_all(c));
+    if (std::all_of(c.begin(), c.end() - 1, [](float x) { return x == 0; }))
+        refuse(head + "have a part of first or second order, got " + format_all(c));
 }
 
 Boxd overlap(const std::vector<ShapePointer>& parts) {
@@ -173,6 +191,20 @@ ShapePointer Shape::triangle_mesh(MeshPointer mesh) {
     return ShapePointer(shape);
 }
 
+ShapePointer Shape::quadric(std::vector<float> coefficients, const Vec3f& lower, const Vec3f& upper) {
+    require_quadric(coefficients);
+    const ShapePointer clip = box(lower, upper);
+    auto* shape = new Shape(ShapeKind::quadric);
+    shape->first_ = clip->first();
+    shape->second_ = clip->second();
+    shape->coefficients_ = std::move(coefficients);
+    ShapePointer pointer(shape);
+    if (!find_inside(unit_quadric(*shape)).possible)
+        refuse("Quadric: coefficients must leave a solid within clip, got " + format_all(shape->coefficients()) +
+               ", > 0 throughout the box from " + format(lower) + " to " + format(upper));
+    return pointer;
+}
+
 ShapePointer Shape::combine(ShapeKind operation, std::vector<ShapePointer> parts) {
     const bool is_union = operation == ShapeKind::csg_union;
     const std::string name = is_union ? "Union" : "Intersection";
@@ -204,6 +236,8 @@ int Shape::face_count() const {
     switch (kind_) {
         case ShapeKind::box:
             return 6;
+        case ShapeKind::quadric:
+            return 7;
         case ShapeKind::cylinder:
         case ShapeKind::cone:
             return 3;

@@ -17,6 +17,7 @@ enum class ShapeKind : std::uint8_t {
     cone,
     disk,
     polygon,
+    quadric,
     mesh,
     csg_union,
     csg_intersection,
@@ -38,6 +39,7 @@ class Shape {
     static ShapePointer disk(const Vec3f& center, const Vec3f& normal, float radius);
     static ShapePointer polygon(std::vector<Vec3f> vertices);
     static ShapePointer triangle_mesh(MeshPointer mesh);
+    static ShapePointer quadric(std::vector<float> coefficients, const Vec3f& lower, const Vec3f& upper);
     static ShapePointer combine(ShapeKind operation, std::vector<ShapePointer> parts);
     static ShapePointer transformed(ShapePointer shape, const Affine& transform);
 
@@ -48,6 +50,7 @@ class Shape {
     float top_radius() const { return top_radius_; }
     const std::vector<Vec3f>& vertices() const { return vertices_; }
     const MeshPointer& mesh() const { return mesh_; }
+    const std::vector<float>& coefficients() const { return coefficients_; }  // of a quadric, A .. J
     const std::vector<ShapePointer>& parts() const { return parts_; }
     const Affine& transform() const { return transform_; }
 
@@ -63,6 +66,7 @@ class Shape {
     float radius_ = 0, top_radius_ = 0;
     std::vector<Vec3f> vertices_;
     MeshPointer mesh_;
+    std::vector<float> coefficients_;
     std::vector<ShapePointer> parts_;
     Affine transform_;
 };

@@ -7,10 +7,10 @@ import itertools
 from ...camera import Camera
 from ...lights import DirectionalLight, PointLight
 from ...scene import Scene
-from ...shapes import Box, Cone, Cylinder, Sphere
+from ...shapes import Box, Cone, Cylinder, Quadric, Sphere
 from ...transform import Transform
 from .registry import Group
-from .stage import BLUE, COLOURS, GREEN, GREY, RED, WHITE, YELLOW, Place, fov_of, power_of_two, scene_with, shape_named
+from .stage import BLUE, COLOURS, GREEN, GREY, RED, WHITE, YELLOW, Place, fov_of, power_of_two, scene_with
 
 case = Group()
 ZOOMS = (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
@@ -126,11 +126,10 @@ def touching_boxes(scale: float) -> Scene:
 )
 def quadric_clip(scale: float) -> Scene:
     """Solids {A x^2 + B y^2 + C z^2 + D x y + E y z + F x z + G x + H y + I z + J <= 0} within a box."""
-    quadric = shape_named("Quadric")
     unit = Box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
-    double_cone = quadric((1, 1, -1, 0, 0, 0, 0, 0, 0, 0), clip=unit)
-    waist = quadric((1, 1, -1, 0, 0, 0, 0, 0, 0, -scale * scale), clip=unit)
-    bowl = quadric((-scale, -scale, 0, 0, 0, 0, 0, 0, 1, 0), clip=Box((-1.0, -1.0, -0.5), (1.0, 1.0, 1.0)))
+    double_cone = Quadric((1, 1, -1, 0, 0, 0, 0, 0, 0, 0), clip=unit)
+    waist = Quadric((1, 1, -1, 0, 0, 0, 0, 0, 0, -scale * scale), clip=unit)
+    bowl = Quadric((-scale, -scale, 0, 0, 0, 0, 0, 0, 1, 0), clip=Box((-1.0, -1.0, -0.5), (1.0, 1.0, 1.0)))
     scene = scene_with((Place().floor(12.0, -1.0), GREY), (Sphere((2.5, -1.5, -0.625), 0.375), RED))
     for shape, x, material in ((double_cone, -2.5, YELLOW), (waist, 0.0, GREEN), (bowl, 2.5, BLUE)):
         scene.add(shape, material, transform=Transform.translate(x, 0.5, 0.0))

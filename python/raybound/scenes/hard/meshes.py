@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from ...camera import Camera
 from ...lights import DirectionalLight, PointLight
 from ...materials import Material
+from ...meshes import Mesh
 from ...scene import Scene
 from .registry import Group
-from .stage import GREY, RED, WHITE, YELLOW, Place, power_of_two, scene_with, shape_named
+from .stage import GREY, RED, WHITE, YELLOW, Place, power_of_two, scene_with
 
 Vertices = NDArray[np.float64]
 Angles = NDArray[np.floating[Any]]
@@ -61,7 +62,7 @@ def needle_mesh(scale: float) -> Scene:
     """A faceted gem of 24 sides with a needle along each edge; a light inside must not show on the floor."""
     sides = np.arange(24) * (2 * math.pi / 24)
     vertices, faces = globe(np.array([0.5, 1.1, 2.2]), np.sort(np.concatenate([sides, sides + scale])))
-    gem = shape_named("Mesh")(vertices + np.array([0.0, 0.0, 1.25]), faces)
+    gem = Mesh(vertices + np.array([0.0, 0.0, 1.25]), faces)
     scene = scene_with((gem, RED), (Place().floor(8.0), GREY))
     scene.add_light(PointLight((0.0, 0.0, 1.25), 1.0))
     scene.add_light(DirectionalLight((0.5, 0.75, -1.0), 0.7))
@@ -81,7 +82,7 @@ def graded_mesh(scale: float) -> Scene:
     """Seen from inside, where every ray meets it."""
     half = np.geomspace(scale, 1.25, 16)
     vertices, faces = globe(np.concatenate([half, math.pi - half[::-1]]), np.arange(24) * (2 * math.pi / 24))
-    scene = scene_with((shape_named("Mesh")(vertices, faces), WHITE), (Place().sphere((0.0, 0.25, 0.375), 0.125), RED))
+    scene = scene_with((Mesh(vertices, faces), WHITE), (Place().sphere((0.0, 0.25, 0.375), 0.125), RED))
     scene.add_light(PointLight((0.25, -0.5, -0.25), 0.8))
     scene.camera = Camera((0.0, 0.0, -0.5), (0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0), fov=75.0)
     return scene
@@ -104,7 +105,7 @@ def far_mesh(scale: float) -> Scene:
     unit = max(1.0, power_of_two(float(np.abs(middle).max())) * 2.0**-13)
     place = Place((float(middle[0]), float(middle[1]), float(middle[2])), unit)
     room = Material((0.62, 0.60, 0.55), reflect=0.2)
-    scene = scene_with((shape_named("Mesh")(middle + unit * vertices, faces), room))
+    scene = scene_with((Mesh(middle + unit * vertices, faces), room))
     scene.add(place.sphere((0.25, 0.375, -0.125), 0.1875), RED)
     scene.add(place.box((-0.5, 0.25, -0.375), (-0.1875, 0.5, 0.125)), YELLOW)
     scene.add_light(place.lamp(0.25, -0.375, 0.5))

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ... import shapes
 from ...camera import Camera
 from ...lights import PointLight
 from ...materials import Material
@@ -96,12 +95,6 @@ def still_life(place: Place) -> Scene:
     scene.add_light(place.lamp(5.0, -2.0, 6.0, 0.4))
     scene.camera = place.camera((-0.5, -7.5, 3.5), (0.0, 0.0, 0.75), fov=42.0)
     return scene
-
-
-def shape_named(name: str) -> Callable[..., Shape]:
-    """A class of shapes by its name, found when it is needed."""
-    found: Callable[..., Shape] = getattr(shapes, name)
-    return found
 
 
 def fov_of(half_angle: float) -> float:
