@@ -95,6 +95,13 @@ inline Crossing<double> cross_mesh(const Geometry& geometry, std::uint32_t index
     return {t, index, best.face, 0, best.hit, false};
 }
 
+// How far a local direction may be off, relative to its length: 5 roundings of |A||d|, and |d| <= |A^-1||d'|.
+inline double line_error(const Geometry& geometry, const Leaf& leaf) {
+    if (leaf.frame < 0) return 0;
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    return gamma<double>(16) * double(max_component(frame.row_norm)) * frame.inverse_norm;
+}
+
 // Does any triangle block: certainly ahead, and certainly before `end`?
 template <class T>
 inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray<double>& world, double end,
@@ -103,11 +110,12 @@ inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
     const MeshRay<T> ray(geometry, leaf, world);
     const T reach = T(end) * T(1 + 0x1p-10);
+    const double surely_before = end / (1 + 0x1p-20 + line_error(geometry, leaf));
     const auto blocked_by = [&](const TrianglePack& pack) {
         for (std::uint32_t lanes = may_cross(pack, ray.packs, reach); lanes != 0;) {
             const FaceCrossing<T> found = cross_lane(pack, bvh::take_lowest(lanes), ray, reach);
             if (!found.hit || !(found.t < end)) continue;
-            if (!world.has_target || found.latest * (1 + 0x1p-20) < end) return true;
+            if (!world.has_target || found.latest < surely_before) return true;
             if (found.t + boundary_error(geometry, leaf, found.face, found.t, world) < end) return true;
         }
         return false;

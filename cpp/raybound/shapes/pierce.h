@@ -51,7 +51,7 @@ struct PermutedLine {
 };
 
 // Where a line meets a triangle: weights of the corners that add up to `sum`, and t. The whole triangle is met before
-// `latest`, within 2^-20.
+// `latest`, as far as the line's direction is right.
 struct Piercing {
     double a = 0, b = 0, c = 0, sum = 0, t = 0, latest = 0;
     bool hit = false;
