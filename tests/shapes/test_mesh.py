@@ -1,4 +1,4 @@
-"""Random meshes against exact arithmetic: hit or miss, face, bounds; no false self-hits; rays in the planes of faces."""
+"""Random meshes against exact arithmetic: hits, faces, bounds; no false self-hits; rays in the planes of faces."""
 
 from fractions import Fraction
 
@@ -129,7 +129,9 @@ def test_convex_meshes_never_hit_themselves(kind: str, meshes: int) -> None:
     tested, violations = 0, []
     for _ in range(meshes):
         size = 10 ** rng.uniform(-8, 8)
-        center = rng.normal(size=3) * (10 ** rng.uniform(-8, 8) if "affine" in kind else size * 10 ** rng.uniform(-6, 1))
+        center = rng.normal(size=3) * (
+            10 ** rng.uniform(-8, 8) if "affine" in kind else size * 10 ** rng.uniform(-6, 1)
+        )
         shape = mesh_or_none(rng, kind, size, center)
         if shape is None:
             continue
@@ -185,7 +187,9 @@ def staircase(rng: Rng, n: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]
                     continue
                 u, w = np.eye(3, dtype=int)[[(axis + 1) % 3, (axis + 2) % 3]]
                 base = cell + side * np.eye(3, dtype=int)[axis]
-                ring = [points.setdefault(tuple(p.tolist()), len(points)) for p in (base, base + u, base + u + w, base + w)]
+                ring = [
+                    points.setdefault(tuple(p.tolist()), len(points)) for p in (base, base + u, base + u + w, base + w)
+                ]
                 ring = np.roll(ring if side else ring[::-1], int(rng.integers(2))).tolist()
                 faces += [(ring[0], ring[1], ring[2]), (ring[0], ring[2], ring[3])]
     return np.array(list(points), float), np.array(faces), solid

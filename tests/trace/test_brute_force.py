@@ -139,7 +139,7 @@ def test_full_packs_far_from_the_origin(precision: str) -> None:
             corners = 0.01 * rng.normal(size=3) + 3e-3 * rng.normal(size=(3, 3))
             scene.add(rb.Polygon(corners), emitter((0, k / 40, 1)), transform=place)
         base = place.matrix[:3, 3]
-        cam = rb.Camera(tuple((base + (0.03, 0.02, 0.0)).tolist()), tuple(base.tolist()), width=192, height=144)
+        cam = rb.Camera(tuple(np.add(base, (0.03, 0.02, 0.0)).tolist()), tuple(base.tolist()), width=192, height=144)
         assert len(np.unique(both(scene, cam, "far packs", precision=precision).object_id)) > 50
 
 
