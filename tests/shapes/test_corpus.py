@@ -26,6 +26,7 @@ def shape_of(case: dict[str, Any]) -> rb.Shape:
             "Cone",
             "Disk",
             "Polygon",
+            "Mesh",
             "Quadric",
             "Union",
             "Intersection",

@@ -11,6 +11,7 @@ from tests.support.support_light import (
     differing_pixels,
     emitter,
 )
+from tests.support.support_meshes import MESHES, kinds_of, mesh_or_none
 
 import raybound as rb
 
@@ -103,6 +104,91 @@ def test_the_comparison_sees_a_moved_sphere() -> None:
     before = core_render(scene, cam)
     scene["mirror"].move(rb.Transform.translate(0, 0, 1e-5))
     assert differing_pixels(before, core_render(scene, cam)).any()
+
+
+def test_planes_in_common() -> None:
+    """Meshes and polygons in one plane: which of them comes first must not depend on the order they are asked in,
+    though the rounded entry into a flat box may lie beyond the rounded crossing."""
+    rng = np.random.default_rng(81)
+    shown = 0
+    for seed in range(12):
+        scene = rb.Scene(ambient=EMITTER_AMBIENT)
+        z = float(rng.uniform(1, 30))
+        for k in range(8):
+            low, high = z * rng.uniform(-1, -0.3, 2), z * rng.uniform(0.3, 1, 2)
+            corners = [(low[0], low[1], z), (high[0], low[1], z), (high[0], high[1], z), (low[0], high[1], z)]
+            turned = np.roll(corners, seed, axis=1)
+            quad = rb.Polygon(turned) if rng.random() < 0.3 else rb.Mesh(turned, [(0, 1, 2), (0, 2, 3)])
+            scene.add(quad, emitter((k / 8, 0.5, 0)))
+        aim = np.roll((0.1, 0.2, z), seed)
+        cam = rb.Camera((0, 0, 0), tuple(aim.tolist()), up=(1, 1, 0.5), width=96, height=72)
+        for precision in ("float32", "float64"):
+            shown += len(np.unique(both(scene, cam, f"planes {seed}", precision=precision).object_id))
+    assert shown >= 100
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_full_packs_far_from_the_origin(precision: str) -> None:
+    """Spheres and triangles by the dozen whose places no float holds: packs hold them rounded, and must say so."""
+    rng = np.random.default_rng(82)
+    for _ in range(4):
+        scene = rb.Scene(ambient=EMITTER_AMBIENT)
+        place = rb.Transform.translate(*np.round(rng.normal(size=3) * 2e4).tolist())
+        for k in range(40):
+            scene.add(rb.Sphere(0.01 * rng.normal(size=3), 2e-3), emitter((k / 40, 1, 0)), transform=place)
+            corners = 0.01 * rng.normal(size=3) + 3e-3 * rng.normal(size=(3, 3))
+            scene.add(rb.Polygon(corners), emitter((0, k / 40, 1)), transform=place)
+        base = place.matrix[:3, 3]
+        cam = rb.Camera(tuple(np.add(base, (0.03, 0.02, 0.0)).tolist()), tuple(base.tolist()), width=192, height=144)
+        assert len(np.unique(both(scene, cam, "far packs", precision=precision).object_id)) > 50
+
+
+def mesh_scene(seed: int) -> rb.Scene:
+    """Meshes of all kinds, some in the same place twice, among spheres and triangles: mirrors, glass, any scale."""
+    rng = np.random.default_rng([seed, 83])
+    scene = rb.Scene(ambient=0.3)
+    scale = 10 ** rng.uniform(-6, 6)
+    middle = rng.normal(size=3) * 10 ** rng.uniform(-3, 3) * scale * (rng.random() < 0.6)
+
+    def coat() -> rb.Material:
+        reflect, transmit = rng.uniform(0, 0.6), rng.uniform(0, 0.4)
+        return rb.Material(tuple(rng.uniform(0, 1, 3)), reflect=reflect, transmit=transmit, ior=rng.uniform(1, 2))
+
+    for kind in rng.permutation(kinds_of(MESHES)):
+        at = middle + scale * rng.normal(size=3) * rng.choice([0.0, 1.0])
+        mesh = mesh_or_none(rng, kind + str(rng.choice(["", "+smooth"])), scale * 10 ** rng.uniform(-1, 0.3), at)
+        for _ in range(0 if mesh is None else int(rng.integers(1, 3))):
+            scene.add(mesh, coat())
+    for _ in range(12):
+        at = middle + scale * rng.normal(size=3)
+        scene.add(rb.Sphere(at, scale * 10 ** rng.uniform(-1.5, -0.3)), coat())
+        scene.add(rb.Polygon(at + scale * rng.normal(size=(3, 3))), coat())
+    scene.add_light(rb.PointLight(tuple(middle + 4 * scale * rng.normal(size=3)), 0.8))
+    scene.add_light(rb.DirectionalLight(tuple(rng.normal(size=3)), 0.5))
+    eye = middle + 5 * scale * rng.normal(size=3)
+    scene.camera = rb.Camera(tuple(eye), tuple(middle), up=(1, 0.5, 0.2), width=48, height=36)
+    return scene
+
+
+def meshes_agree(seeds: range) -> int:
+    seen = 0
+    for seed in seeds:
+        scene = mesh_scene(seed)
+        for precision in ("float32", "float64"):
+            shown = both(scene, scene.camera, f"meshes {seed}", precision=precision, max_depth=5)
+            seen += len(np.unique(shown.object_id))
+    return seen
+
+
+@pytest.mark.parametrize("first", range(0, 16, 4))
+def test_random_meshes(first: int) -> None:
+    assert meshes_agree(range(first, first + 4)) >= 30
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("first", range(1000, 3000, 100))
+def test_soak_random_meshes(first: int) -> None:
+    assert meshes_agree(range(first, first + 100)) >= 1000
 
 
 @pytest.mark.soak

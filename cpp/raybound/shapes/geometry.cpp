@@ -122,6 +122,9 @@ void place_mesh(Geometry& geometry, Leaf& leaf, const Shape& shape, const Affine
     const double extent = max_component(Vec3d(shape.mesh()->bounds().extent()));
     if (!(extent / norm_infinity(frame.linear_wide) >= double(least_size)))
         throw std::invalid_argument("Mesh: transforms must keep sizes at least 2**-60");
+    const double growth = norm_infinity(placement.linear), shrinking = norm_infinity(frame.linear_wide);
+    if (!(growth <= 0x1p60 && shrinking <= 0x1p60))  // so that rays stay in range in the mesh's coordinates
+        throw std::invalid_argument("Mesh: transforms must scale by 2**-60 to 2**60");
     const double moved = double(frame_surface_error(frame, {placement.linear, {}})) * double(shape.mesh()->reach());
     leaf.surface_error = next_float_up(float(moved + 0x1p-50 * norm1(placement.offset)));
     leaf.frame = std::int32_t(geometry.frames.size());

@@ -157,7 +157,7 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
                                    Wanted wanted) {
     using W = Wide<T>;
     const Leaf& leaf = geometry.leaves[crossing.leaf];
-    const BarycentricHit<W> at = barycentric_hit(geometry, leaf, crossing.face, ray);
+    const BarycentricHit at = barycentric_hit(geometry, leaf, crossing.face, ray);
     SurfacePoint<T> hit;
     hit.t = T(crossing.t);
     hit.point = Vec3<T>(at.point);
@@ -168,10 +168,10 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
     hit.normal = Vec3<T>(at.normal);
     hit.shading = Vec3<T>(at.shading);
     if (wanted.uv) hit.uv = {T(at.uv.u), T(at.uv.v)};
-    hit.entering = !(dot(ray.direction, at.normal) > W(0));
+    hit.entering = at.entering;
+    if (!wanted.t_error) return hit;
     const Surface<W> surface = leaf_surface(geometry, leaf, crossing.face, at.point, ray.direction);
-    hit.t_error =
-        wanted.t_error ? crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal) : T(0);
+    hit.t_error = crossing_error(geometry, crossing, ray, hit.t, {at.point, surface}, at.normal);
     return hit;
 }
 

@@ -5,71 +5,49 @@
 #include <algorithm>
 
 #include "raybound/shapes/boundary.h"
+#include "raybound/shapes/pierce.h"
 
 namespace raybound {
 
-// The ray in the mesh's coordinates.
+// A ray in the mesh's coordinates. This rounded line, as it is, is what decides, about every triangle of the mesh.
+inline PermutedLine mesh_line(const Geometry& geometry, const Leaf& leaf, const Ray<double>& ray) {
+    if (leaf.frame < 0) return {ray.origin, ray.direction, 0};
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    const LocalPoint<double> origin = to_local(frame, ray.origin);
+    const Vec3d d = frame.linear_wide * ray.direction;
+    const auto flush = [](double x) { return flush_component(float(x)) == 0 ? 0.0 : x; };  // for every type alike
+    return {origin.y, {flush(d.x), flush(d.y), flush(d.z)}, max_component(origin.error)};
+}
+
+// The same with what T's slabs and filter need; T's line is within rounding of it.
 template <class T>
 struct MeshRay {
-    using W = Wide<T>;
-
-    Vec3<W> origin, direction;
-    W origin_error;
-    Shear<W> shear;
-    Vec3<W> permuted_origin;
+    PermutedLine line;
     SlabRay<T> slabs;
     TrianglePackRay<T> packs;
 
-    MeshRay(const Geometry& geometry, const Leaf& leaf, const MeshData& mesh, const Ray<W>& ray)
-        : MeshRay(mesh, local_line(geometry, leaf, ray)) {}
+    MeshRay(const Geometry& geometry, const Leaf& leaf, const Ray<double>& ray)
+        : MeshRay(mesh_line(geometry, leaf, ray)) {}
 
   private:
-    struct Line {
-        LocalPoint<W> origin;
-        Vec3<W> direction;
-    };
+    // How far T's origin is from the deciding one (half an ulp), and the slabs' own rounding of it.
+    static Vec3<T> rounding(const Vec3<T>& origin) { return absolute(origin) * gamma<T>(3); }
 
-    static Line local_line(const Geometry& geometry, const Leaf& leaf, const Ray<W>& ray) {
-        if (leaf.frame < 0) return {{ray.origin, {}}, ray.direction};
-        const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
-        const Vec3<W> d = frame_linear<W>(frame) * ray.direction;
-        // A component flushed is flushed for both types.
-        const auto flush = [](W x) { return flush_component(T(x)) == T(0) ? W(0) : x; };
-        return {to_local(frame, ray.origin), {flush(d.x), flush(d.y), flush(d.z)}};
-    }
-
-    // How far T's origin is from the deciding type's (an ulp's half, and half as much again for the slabs' own
-    // rounding of it), and as much as that type may err in telling on which side of an edge a ray passes: what it
-    // accepts, the slabs must not drop.
-    static Vec3<T> slab_error(const MeshData& mesh, const LocalPoint<W>& o) {
-        const Vec3<T> y = absolute(Vec3<T>(o.y));
-        const T off = T(max_component(o.error)) + T(0x1p-44) * (max_component(y) + T(mesh.reach()));
-        return y * gamma<T>(3) + Vec3<T>{off, off, off} * T(1.25f);
-    }
-
-    MeshRay(const MeshData& mesh, const Line& line) : MeshRay(line, slab_error(mesh, line.origin)) {}
-    MeshRay(const Line& line, const Vec3<T>& error)
-        : origin(line.origin.y),
-          direction(line.direction),
-          origin_error(max_component(line.origin.error)),
-          shear(direction),
-          permuted_origin(shear.permuted(origin)),
-          slabs(Vec3<T>(origin), error, Vec3<T>(direction)),
-          packs(Vec3<T>(origin), Vec3<T>(direction), max_component(error)) {}
+    explicit MeshRay(const PermutedLine& l) : MeshRay(l, Vec3<T>(l.origin), Vec3<T>(l.direction)) {}
+    MeshRay(const PermutedLine& l, const Vec3<T>& o, const Vec3<T>& d)
+        : line(l), slabs(o, rounding(o), d), packs(o, d, max_component(rounding(o))) {}
 };
 
-template <class T>
-inline Piercing<T> pierce_face(const Corners<T>& corners, const Vec3<T>& permuted_origin, T origin_error,
-                               const Shear<T>& shear) {
-    const Corners<T> permuted{shear.permuted(corners.a), shear.permuted(corners.b), shear.permuted(corners.c)};
-    return pierce(edge_functions(permuted, permuted_origin, origin_error, shear), shear);
+inline Piercing pierce_face(const Corners<double>& corners, const PermutedLine& line) {
+    const auto& shear = line.shear;
+    return pierce({shear.permuted(corners.a), shear.permuted(corners.b), shear.permuted(corners.c)}, line);
 }
 
 // A triangle's crossing, if it is decided that there is one ahead. A crossing needs the triangle's own box crossed,
 // and its t is no less than the entry, as for primitives: so any conservative traversal finds the same.
 template <class T>
 struct FaceCrossing {
-    Wide<T> t;
+    double t, latest;
     T rounded;
     std::int32_t face;
     bool hit;
@@ -77,18 +55,16 @@ struct FaceCrossing {
 
 template <class T>
 inline FaceCrossing<T> cross_lane(const TrianglePack& pack, int lane, const MeshRay<T>& ray, T t_max) {
-    using W = Wide<T>;
     const auto corner = [&](int k) {
         return Vec3f{pack.corner[k][0][lane], pack.corner[k][1][lane], pack.corner[k][2][lane]};
     };
     const Corners<float> corners{corner(0), corner(1), corner(2)};
-    const Piercing<W> p = pierce_face<W>({Vec3<W>(corners.a), Vec3<W>(corners.b), Vec3<W>(corners.c)},
-                                         ray.permuted_origin, ray.origin_error, ray.shear);
-    if (none(p.hit & p.ahead)) return {W(0), T(0), 0, false};
+    const Piercing p = pierce_face({Vec3d(corners.a), Vec3d(corners.b), Vec3d(corners.c)}, ray.line);
+    if (!p.hit) return {};
     const Box box{minimum(minimum(corners.a, corners.b), corners.c), maximum(maximum(corners.a, corners.b), corners.c)};
     T entry;
-    if (!crosses(box, ray.slabs, t_max, &entry)) return {W(0), T(0), 0, false};
-    return {p.t, maximum(T(p.t), entry), std::int32_t(pack.id[lane]), true};
+    if (!crosses(box, ray.slabs, t_max, &entry)) return {};
+    return {p.t, p.latest, maximum(T(p.t), entry), std::int32_t(pack.id[lane]), true};
 }
 
 // Calls visit(pack) for the packs that the ray may meet; with brute force, for all.
@@ -99,14 +75,15 @@ inline void visit_packs(const MeshData& mesh, const MeshRay<T>& ray, T& t_max, b
     for (const TrianglePack& pack : mesh.packs()) visit(pack);
 }
 
-// The first crossing, by (t, face), among those not beyond t_max.
+// The first crossing, by (t, face), among those not beyond t_max. Its t includes the clamp to the entry: what is beyond
+// t_max by it is out whether this mesh is asked before the object that set t_max or after.
 template <class T>
-inline Crossing<Wide<T>> cross_mesh(const Geometry& geometry, std::uint32_t index, const Ray<Wide<T>>& world, T t_max,
-                                    bool brute_force) {
+inline Crossing<double> cross_mesh(const Geometry& geometry, std::uint32_t index, const Ray<double>& world, T t_max,
+                                   bool brute_force) {
     const Leaf& leaf = geometry.leaves[index];
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
-    const MeshRay<T> ray(geometry, leaf, mesh, world);
-    FaceCrossing<T> best{infinity<Wide<T>>, t_max, 0, false};
+    const MeshRay<T> ray(geometry, leaf, world);
+    FaceCrossing<T> best{infinity<double>, infinity<double>, t_max, 0, false};
     visit_packs(mesh, ray, best.rounded, brute_force, [&](const TrianglePack& pack) {
         for (std::uint32_t lanes = may_cross(pack, ray.packs, best.rounded); lanes != 0;) {
             const FaceCrossing<T> found = cross_lane(pack, bvh::take_lowest(lanes), ray, best.rounded);
@@ -114,23 +91,32 @@ inline Crossing<Wide<T>> cross_mesh(const Geometry& geometry, std::uint32_t inde
             if (!best.hit || found.rounded < best.rounded || found.face < best.face) best = found;
         }
     });
-    return {best.t, index, best.face, 0, best.hit, false};
+    const double t = T(best.t) < best.rounded ? double(best.rounded) : best.t;
+    return {t, index, best.face, 0, best.hit, false};
+}
+
+// How far a local direction may be off, relative to its length: 5 roundings of |A||d|, and |d| <= |A^-1||d'|.
+inline double line_error(const Geometry& geometry, const Leaf& leaf) {
+    if (leaf.frame < 0) return 0;
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    return gamma<double>(16) * double(max_component(frame.row_norm)) * frame.inverse_norm;
 }
 
 // Does any triangle block: certainly ahead, and certainly before `end`?
 template <class T>
-inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray<Wide<T>>& world, Wide<T> end,
+inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray<double>& world, double end,
                         bool brute_force) {
     const Leaf& leaf = geometry.leaves[index];
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
-    const MeshRay<T> ray(geometry, leaf, mesh, world);
+    const MeshRay<T> ray(geometry, leaf, world);
     const T reach = T(end) * T(1 + 0x1p-10);
+    const double surely_before = end / (1 + 0x1p-20 + line_error(geometry, leaf));
     const auto blocked_by = [&](const TrianglePack& pack) {
         for (std::uint32_t lanes = may_cross(pack, ray.packs, reach); lanes != 0;) {
             const FaceCrossing<T> found = cross_lane(pack, bvh::take_lowest(lanes), ray, reach);
             if (!found.hit || !(found.t < end)) continue;
-            if (!world.has_target || found.t + boundary_error(geometry, leaf, found.face, found.t, world) < end)
-                return true;
+            if (!world.has_target || found.latest < surely_before) return true;
+            if (found.t + boundary_error(geometry, leaf, found.face, found.t, world) < end) return true;
         }
         return false;
     };
@@ -141,73 +127,67 @@ inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray
 
 // The hit point by its barycentric coordinates, in the world, with the bound of its error: seven roundings of
 // sum |b v| (seeds/000, 3.9.4), those of the map to the world, and how far the inverse that decides is off it.
-template <class T>
 struct BarycentricHit {
-    Vec3<T> point, error;
-    Vec3<T> normal;   // outward, of the face
-    Vec3<T> shading;  // the interpolated normal, on the same side; the face's own where there is none
-    UV<T> uv;
+    Vec3d point, error;
+    Vec3d normal;   // outward, of the face
+    Vec3d shading;  // the interpolated normal, on the same side; the face's own where there is none
+    UV<double> uv;
+    bool entering;  // from the side of the outward normal
 };
 
-template <class T, class Value>
-inline auto interpolate(const Piercing<T>& weights, const Value& a, const Value& b, const Value& c) {
+template <class Value>
+inline auto interpolate(const Piercing& weights, const Value& a, const Value& b, const Value& c) {
     return a * (weights.a / weights.sum) + b * (weights.b / weights.sum) + c * (weights.c / weights.sum);
 }
 
-template <class T>
-inline Vec3<T> scaled_unit(const Vec3<T>& v) {
-    return normalize(v * (T(1) / max_component(absolute(v))));
-}
+inline Vec3d scaled_unit(const Vec3d& v) { return normalize(v * (1.0 / max_component(absolute(v)))); }
 
-template <class T>
-inline Vec3<T> shading_normal(const MeshData& mesh, const Face& face, const Piercing<T>& weights,
-                              const Vec3<T>& normal) {
+inline Vec3d shading_normal(const MeshData& mesh, const Face& face, const Piercing& weights, const Vec3d& normal) {
     if (mesh.normals().empty()) return normal;
-    const auto at = [&](std::int32_t vertex) { return scaled_unit(Vec3<T>(mesh.normals()[std::size_t(vertex)])); };
-    const Vec3<T> sum = interpolate(weights, at(face.a), at(face.b), at(face.c));
-    return max_component(absolute(sum)) > T(0x1p-20) ? sum : normal;  // opposite normals cancel: the face's own then
+    const auto at = [&](std::int32_t vertex) { return scaled_unit(Vec3d(mesh.normals()[std::size_t(vertex)])); };
+    const Vec3d sum = interpolate(weights, at(face.a), at(face.b), at(face.c));
+    return max_component(absolute(sum)) > 0x1p-20 ? sum : normal;  // opposite normals cancel: the face's own then
 }
 
-template <class T>
-inline UV<T> mesh_uv(const MeshData& mesh, const Face& face, const Piercing<T>& weights) {
+inline UV<double> mesh_uv(const MeshData& mesh, const Face& face, const Piercing& weights) {
     if (mesh.uvs().empty()) return {weights.b / weights.sum, weights.c / weights.sum};
     const auto at = [&](std::int32_t vertex) {
         const UV<float>& uv = mesh.uvs()[std::size_t(vertex)];
-        return Vec3<T>(T(uv.u), T(uv.v), T(0));
+        return Vec3d(double(uv.u), double(uv.v), 0.0);
     };
-    const Vec3<T> uv = interpolate(weights, at(face.a), at(face.b), at(face.c));
+    const Vec3d uv = interpolate(weights, at(face.a), at(face.b), at(face.c));
     return {uv.x, uv.y};
 }
 
-template <class T>
-inline BarycentricHit<T> barycentric_hit(const Geometry& geometry, const Leaf& leaf, std::int32_t index,
-                                         const Ray<T>& world) {
+inline BarycentricHit barycentric_hit(const Geometry& geometry, const Leaf& leaf, std::int32_t index,
+                                      const Ray<double>& world) {
     const MeshInstance& instance = geometry.meshes[leaf.polygon];
     const MeshData& mesh = *instance.data;
-    const MeshRay<T> ray(geometry, leaf, mesh, world);
-    const Corners<T> c = mesh.corners<T>(index);
+    const PermutedLine line = mesh_line(geometry, leaf, world);
+    const Corners<double> c = mesh.corners<double>(index);
     const Face& face = mesh.faces()[std::size_t(index)];
-    const Piercing<T> weights = pierce_face(c, ray.permuted_origin, ray.origin_error, ray.shear);
-    BarycentricHit<T> hit;
+    const Piercing weights = pierce_face(c, line);
+    BarycentricHit hit;
+    hit.entering = weights.sum * line.shear.dz > 0;  // the normal's slope, exact in sign, is minus that
     hit.point = interpolate(weights, c.a, c.b, c.c);
-    hit.error = interpolate(weights, absolute(c.a), absolute(c.b), absolute(c.c)) * gamma<T>(7);
+    hit.error = interpolate(weights, absolute(c.a), absolute(c.b), absolute(c.c)) * gamma<double>(7);
     hit.normal = cross(c.b - c.a, c.c - c.a);
     hit.shading = shading_normal(mesh, face, weights, hit.normal);
     hit.uv = mesh_uv(mesh, face, weights);
     if (leaf.frame >= 0) {
-        const Mat3<T>& inverse = frame_linear<T>(geometry.frames[std::size_t(leaf.frame)]);
-        const Mat3<T> linear(instance.placement.linear), size = absolute(linear);
-        const Vec3<T> offset(instance.placement.offset);
-        const T off(leaf.surface_error);
-        hit.error = size * (hit.error + absolute(hit.point) * gamma<T>(4)) + absolute(offset) * gamma<T>(1) +
-                    Vec3<T>{off, off, off};
+        const Mat3<double>& inverse = geometry.frames[std::size_t(leaf.frame)].linear_wide;
+        const auto& [linear, offset] = instance.placement;
+        const Mat3<double> size = absolute(linear);
+        const double off = leaf.surface_error;
+        hit.error = size * (hit.error + absolute(hit.point) * gamma<double>(4)) + absolute(offset) * gamma<double>(1) +
+                    Vec3d{off, off, off};
         hit.point = linear * hit.point + offset;
         hit.normal = transpose_times(inverse, hit.normal);
         hit.shading = transpose_times(inverse, hit.shading);
     }
     hit.normal = scaled_unit(hit.normal);
     hit.shading = scaled_unit(hit.shading);
-    if (dot(hit.shading, hit.normal) < T(0)) hit.shading = -hit.shading;
+    if (dot(hit.shading, hit.normal) < 0.0) hit.shading = -hit.shading;
     return hit;
 }
 

@@ -40,13 +40,20 @@ struct TrianglePackRay {
           origin_error(error) {}
 };
 
+// Packs hold floats. Where a transform gave the sphere a centre or radius that is not one, each is off by a rounding of
+// float: in T = float the bands of the kernel cover that (D8), in double the filter asks about a sphere that holds it.
+template <class T>
+inline Pack<T> filter_radius(const Vec3<Pack<T>>& center, const Pack<T>& radius) {
+    if constexpr (std::is_same_v<T, float>) return radius;
+    return radius + (norm1(center) + radius) * Pack<T>(T(0x1.001p-24));
+}
+
 template <class T>
 inline std::uint32_t may_cross(const SpherePack& pack, const Vec3<T>& origin, const Vec3<T>& direction) {
     using P = Pack<T>;
     const Vec3<P> center{P::load(pack.center[0]), P::load(pack.center[1]), P::load(pack.center[2])};
-    const P reach(norm1(direction));
-    return bits(!sphere_missed(center, P::load(pack.radius), broadcast(origin), broadcast(direction), reach)) &
-           pack.lanes;
+    const P radius = filter_radius(center, P::load(pack.radius)), reach(norm1(direction));
+    return bits(!sphere_missed(center, radius, broadcast(origin), broadcast(direction), reach)) & pack.lanes;
 }
 
 template <class T>
@@ -62,7 +69,7 @@ inline std::uint32_t may_cross(const TrianglePack& pack, const TrianglePackRay<T
     const Shear<T>& s = ray.scalar_shear;
     const Corners<P> corners{load_corner(pack, 0, s), load_corner(pack, 1, s), load_corner(pack, 2, s)};
     const EdgeFunctions<P> edges = edge_functions(corners, ray.origin, P(ray.origin_error + T(pack.error)), ray.shear);
-    const T reach = t_max * abs(s.dz) * (T(1) + gamma<T>(8));
+    const T reach = t_max * abs(s.dz) * (T(1) + gamma<T>(16));
     return bits(may_pierce(edges, ray.shear, P(reach))) & pack.lanes;
 }
 

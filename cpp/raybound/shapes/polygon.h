@@ -49,28 +49,40 @@ inline Vec3<T> plane_gradient(const PolygonPlane& plane) {
     return gradient;
 }
 
-// Does the line pass through the polygon, seen from either side? A line through an edge or a vertex does: a side of
-// zero counts for both.
+// How a line passes a polygon, seen from either side: through it (a line through an edge or a vertex does: a side of
+// zero counts for both), and between which t its vertices are.
 template <class T>
-inline bool line_pierces(std::span<const Vec3d> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
+struct Passing {
+    bool pierces = true;
+    T nearest = infinity<T>, farthest = -infinity<T>;
+};
+
+template <class T>
+inline Passing<T> line_passing(std::span<const Vec3d> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
     const Shear<T> shear(direction);
     const auto seen = [&](const Vec3d& vertex) { return shear.permuted(Vec3<T>(vertex) - origin); };
     const Vec3<T> last = seen(vertices.back());
     T ax = shear.x(last), ay = shear.y(last);
     bool left = true, right = true;
+    Passing<T> passing;
     for (const Vec3d& vertex : vertices) {
         const Vec3<T> b = seen(vertex);
-        const T bx = shear.x(b), by = shear.y(b);
+        const T bx = shear.x(b), by = shear.y(b), t = b.z / shear.dz;
         const T side = edge_side(ax, ay, bx, by);
         left = left && side >= T(0);
         right = right && side <= T(0);
-        if (!(left || right)) return false;
+        passing.pierces = left || right;
+        if (!passing.pierces) break;
+        passing.nearest = minimum(passing.nearest, t);
+        passing.farthest = maximum(passing.farthest, t);
         ax = bx;
         ay = by;
     }
-    return true;
+    return passing;
 }
 
+// Where a line is all but parallel to the plane, t is between those of the vertices still: what filters rely on that
+// look at the vertices alone (derivation D8).
 template <class T>
 inline Span<T> polygon_span(const PolygonPlane& plane, std::span<const Vec3d> vertices, const Ray<T>& ray) {
     const Banded<T> height = plane_form(plane, Vec3<T>(vertices[0]), ray.origin);
@@ -80,7 +92,9 @@ inline Span<T> polygon_span(const PolygonPlane& plane, std::span<const Vec3d> ve
     Span<T> span = sheet_span(height, climb, Mask<T>(true));
     const Mask<T> needed = span.hit & span.in_ahead;
     if (none(needed)) return span;
-    span.hit = needed & line_pierces(vertices, ray.origin, ray.direction);
+    const Passing<T> passing = line_passing(vertices, ray.origin, ray.direction);
+    span.t_in = span.t_out = minimum(maximum(span.t_in, passing.nearest), passing.farthest);
+    span.hit = needed & Mask<T>(passing.pierces) & (span.t_in > T(0));
     return span;
 }
 

@@ -1,5 +1,5 @@
 // The triangle as meshes have it: edge functions in a ray's own sheared coordinates (Woop, Benthin and Wald 2013;
-// seeds/000, 3.9.3). The same kernel is the filter in packs of T and decides in the wide type (derivation D8).
+// seeds/000, 3.9.3), with bounds of their errors. In packs of T they are a filter; double decides (derivation D8).
 #pragma once
 
 #include "raybound/numbers/pack.h"
@@ -24,6 +24,8 @@ struct EdgeFunctions {
     T least() const { return minimum(minimum(a, b), c); }
     T farthest() const { return maximum(maximum(za, zb), zc); }
     T nearest() const { return minimum(minimum(za, zb), zc); }
+    // The line certainly passes beside the triangle.
+    Mask<T> outside() const { return (least() < -band) & (largest() > band); }
 };
 
 template <class T>
@@ -39,8 +41,8 @@ inline T largest_of(const ShearedPoint<T>& a, const ShearedPoint<T>& b, const Sh
 
 // Corners and origin come permuted (Shear). `origin_error` bounds how far each component of the origin, or of a corner,
 // is off. The direction may have been rounded once in each component. With m the largest component of a corner seen
-// from the origin, its difference is off by e + m u, the shear's factor (at most 1) by 3u, and so a sheared coordinate
-// by less than 2e + 11 m u.
+// from the origin, its difference is off by e + m u, the shear's factor (at most 1) by 3u, the product by u, and the
+// last difference (at most 2m) by u: a sheared coordinate by less than 2e + 9 m u.
 template <class T>
 inline EdgeFunctions<T> edge_functions(const Corners<T>& corners, const Vec3<T>& origin, T origin_error,
                                        const Shear<T>& shear) {
@@ -63,37 +65,14 @@ inline EdgeFunctions<T> edge_functions(const Corners<T>& corners, const Vec3<T>&
     return edges;
 }
 
-// Does the line pass the triangle, in exact terms, perhaps? And is the hit perhaps neither behind nor beyond `reach`
-// (measured along kz)?
+// The filter: does the line pass the triangle, in exact terms, perhaps? And is the hit perhaps neither behind nor
+// beyond `reach` (measured along kz)?
 template <class T>
 inline Mask<T> may_pierce(const EdgeFunctions<T>& e, const Shear<T>& shear, T reach) {
-    const Mask<T> outside = (e.least() < -e.band) & (e.largest() > e.band);
     const Mask<T> forward = shear.forward;
     const T nearest = select(forward, e.nearest(), -e.farthest()),
             farthest = select(forward, e.farthest(), -e.nearest());
-    return !(outside | (farthest < -e.z_band) | (nearest > reach + e.z_band));
-}
-
-// Where a line meets a triangle: weights of the corners that add up to `sum`, and t times sum.
-template <class T>
-struct Piercing {
-    T a, b, c, sum, t;
-    Mask<T> hit, ahead;
-};
-
-// The decision. Zero counts for both sides of an edge, and edges shared by triangles give the same numbers from both,
-// so nothing passes between them. The sign of t is certain beyond the band: three products of an edge function and a
-// z, each with its error, and their sum (seeds/000, 3.9.6, with every rounding).
-template <class T>
-inline Piercing<T> pierce(const EdgeFunctions<T>& e, const Shear<T>& shear) {
-    Piercing<T> p{e.a, e.b, e.c, e.a + e.b + e.c, T(0), Mask<T>(false), Mask<T>(false)};
-    p.hit = ((e.least() >= T(0)) | (e.largest() <= T(0))) & (p.sum != T(0));
-    const T scaled = e.a * e.za + e.b * e.zb + e.c * e.zc;
-    const T size = maximum(abs(e.least()), abs(e.largest())), far = maximum(abs(e.nearest()), abs(e.farthest()));
-    const T band = T(3) * ((gamma<T>(5) * size + e.band) * far + (size + e.band) * e.z_band);
-    p.t = scaled / (p.sum * shear.dz);
-    p.ahead = (abs(scaled) > band) & (p.t > T(0));
-    return p;
+    return !(e.outside() | (farthest < -e.z_band) | (nearest > reach + e.z_band));
 }
 
 }  // namespace raybound
