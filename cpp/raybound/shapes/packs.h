@@ -13,11 +13,11 @@ struct alignas(32) SpherePack {
     std::uint32_t lanes = 0;  // a bit for each lane in use
 };
 
-struct alignas(32) TrianglePack {
+struct alignas(64) TrianglePack {
     float corner[3][3][pack_width] = {};  // by corner and axis
+    std::uint32_t lanes = 0;              // in use; within the five cache lines that a filter reads
+    float error = 0;                      // how far each coordinate may be from the corner it was rounded from
     std::uint32_t id[pack_width] = {};
-    std::uint32_t lanes = 0;
-    float error = 0;  // how far each coordinate may be from the corner it was rounded from
 };
 
 template <class T>

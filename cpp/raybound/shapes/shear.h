@@ -14,12 +14,14 @@ struct Shear {
 
     explicit Shear(const Vec3<T>& d) {
         const Vec3<T> a = absolute(d);
-        kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+        const bool y_over_x = !(a.x > a.y), z_over_both = !((y_over_x ? a.y : a.x) > a.z);
+        kz = z_over_both * 2 + !z_over_both * y_over_x;  // arithmetic, as a branch would often be mispredicted
         kx = (kz + 1) % 3;
         ky = (kz + 2) % 3;
-        dz = d[kz];
-        sx = d[kx] / dz;
-        sy = d[ky] / dz;
+        const Vec3<T> turned = permuted(d);
+        dz = turned.z;
+        sx = turned.x / dz;
+        sy = turned.y / dz;
         forward = dz > T(0);
     }
     // The same in every lane of a pack.
@@ -28,7 +30,10 @@ struct Shear {
         : kx(o.kx), ky(o.ky), kz(o.kz), sx(o.sx), sy(o.sy), dz(o.dz), forward(dz > T(0)) {}
 
     // A vector's components in the order (kx, ky, kz); the others take it so.
-    Vec3<T> permuted(const Vec3<T>& p) const { return {p[kx], p[ky], p[kz]}; }
+    Vec3<T> permuted(const Vec3<T>& p) const {
+        const T component[3] = {p.x, p.y, p.z};
+        return {component[kx], component[ky], component[kz]};
+    }
     T x(const Vec3<T>& p) const { return p.x - sx * p.z; }
     T y(const Vec3<T>& p) const { return p.y - sy * p.z; }
 };
