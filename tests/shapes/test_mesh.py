@@ -9,9 +9,11 @@ from tests.support.support_meshes import (
     CONVEX,
     MESHES,
     Crossed,
+    box_faces,
     cross_face,
     exact_vector,
     first_faces,
+    globe,
     is_mirrored,
     kinds_of,
     mesh_or_none,
@@ -250,3 +252,65 @@ def test_ties_at_shared_edges_go_to_the_lower_face() -> None:
                     assert hit["face_id"] == min(same)
                     ties += 1
     assert ties >= 50
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_rays_from_the_middle_at_vertices_and_edges(precision: str) -> None:
+    """From (0, 0, 0) only the roundings of the shear are left, which the filter has to count: no miss."""
+    rng = np.random.default_rng(97)
+    tested = 0
+    for _ in range(3):
+        points, faces = globe(rng, 60, (0, 0, 0), 10 ** rng.uniform(-5, 5))
+        mesh = rb.Mesh(points, faces)
+        corners = mesh.vertices[mesh.faces].astype(float)
+        middles = f32((corners + np.roll(corners, 1, axis=1)) / 2)
+        targets = np.concatenate([corners.reshape(-1, 3), middles.reshape(-1, 3)])
+        answers = rb.intersect(mesh, np.zeros_like(targets), f32(targets), precision=precision)
+        assert answers["hit"].all()
+        tested += len(answers)
+    assert tested > 50_000
+
+
+def test_origins_on_faces_do_not_meet_them() -> None:
+    """On the plane of a face exactly, as the numbers of the staircase are: what is met is what lies ahead, exactly."""
+    rng = np.random.default_rng(98)
+    tested = met = 0
+    for _ in range(30):
+        points, faces, _solid = staircase(rng)
+        matrix = rng.integers(-40, 40, (3, 3))
+        if abs(np.linalg.det(matrix)) < 1:
+            continue
+        try:
+            mesh = rb.Mesh(points @ matrix.T, faces)
+        except ValueError:
+            continue
+        corners = placed_corners(mesh)
+        picked = np.array(mesh.vertices, float)[mesh.faces[rng.integers(len(faces), size=60)]]
+        origins = (picked * np.array([0.25, 0.25, 0.5])[:, None]).sum(axis=1)
+        directions = rng.integers(-9, 10, (60, 3)) @ matrix.T
+        assert (f32(origins) == origins).all()
+        keep = directions.any(axis=1)
+        origins, directions = origins[keep], directions[keep]
+        answers = rb.intersect(mesh, f32(origins), f32(directions))
+        for o, d, hit in zip(origins, directions, answers):
+            first = first_faces(corners, o, d)
+            assert (int(hit["face_id"]) in first) if first else not hit["hit"]
+            met += bool(first)
+        tested += len(answers)
+    assert tested >= 500
+    assert met >= 100
+
+
+def test_origins_on_faces_of_placed_boxes_do_not_meet_them() -> None:
+    """The map into the mesh is rounded: an origin that is on the face as far as it can tell has left it."""
+    rng = np.random.default_rng(99)
+    points, faces = box_faces()
+    for _ in range(60):
+        size = f32(10 ** rng.uniform(-3, 3, 3)).astype(float)
+        crate = rb.Mesh(points, faces).transformed(rb.Transform.scale(size))
+        origins = f32(rng.random((300, 3)) * size)
+        axis = rng.integers(3, size=300)
+        origins[np.arange(300), axis] = size[axis]
+        ways = unit(rng, 300)
+        ways[np.arange(300), axis] = np.abs(ways[np.arange(300), axis])
+        assert not rb.intersect(crate, origins, f32(ways))["hit"].any()
