@@ -87,7 +87,8 @@ REACHES = {"far-mirror": 0.1, "far-mesh": 0.1}
 TOLERANCES = {"far-mirror": 0.01, "far-mesh": 0.01, "csg-coincident": 1e-3}
 # The share of pixels that may differ next to discontinuities. In touching glass light is caught for long, and the two
 # pictures are of chaotic paths there: largest observed 0.035. Others: 0.0004.
-SHARES = {"touching-glass": 0.06}
+# (Meshes are seen flat: where a ray meets an edge within rounding, either face is right. Views look along edges.)
+SHARES = {"touching-glass": 0.06, "graded-mesh": 0.01, "far-mesh": 0.02}
 
 
 @all_scales(CASES)
