@@ -27,15 +27,14 @@ struct MeshRay {
     TrianglePackRay<T> packs;
 
     MeshRay(const Geometry& geometry, const Leaf& leaf, const Ray<double>& ray)
-        : MeshRay(mesh_line(geometry, leaf, ray)) {}
+        : line(mesh_line(geometry, leaf, ray)),
+          slabs(narrow(line.origin), rounding(line.origin), narrow(line.direction)),
+          packs(narrow(line.origin), narrow(line.direction), max_component(rounding(line.origin))) {}
 
   private:
     // How far T's origin is from the deciding one (half an ulp), and the slabs' own rounding of it.
-    static Vec3<T> rounding(const Vec3<T>& origin) { return absolute(origin) * gamma<T>(3); }
-
-    explicit MeshRay(const PermutedLine& l) : MeshRay(l, Vec3<T>(l.origin), Vec3<T>(l.direction)) {}
-    MeshRay(const PermutedLine& l, const Vec3<T>& o, const Vec3<T>& d)
-        : line(l), slabs(o, rounding(o), d), packs(o, d, max_component(rounding(o))) {}
+    static Vec3<T> rounding(const Vec3d& origin) { return absolute(narrow(origin)) * gamma<T>(3); }
+    static Vec3<T> narrow(const Vec3d& v) { return Vec3<T>(v); }
 };
 
 inline Piercing pierce_face(const Corners<double>& corners, const PermutedLine& line) {
