@@ -32,10 +32,13 @@ def zero() -> dict[str, Any]:
 
 def count_pixels(stats: dict[str, Any], path: npt.NDArray[np.uint8], reason: npt.NDArray[np.uint8]) -> None:
     """Fills in how many pixels took each path, and for each reason."""
-    paths = np.bincount(path.ravel(), minlength=len(Path)).tolist()
-    reasons = np.bincount(reason.ravel(), minlength=len(Reason)).tolist()
-    stats["pixels"] = {item.name: paths[item] for item in Path}
-    stats["reasons"] = {item.name: reasons[item] for item in Reason}
+    stats["pixels"] = {item.name: _count(path, item) for item in Path}
+    stats["reasons"] = {item.name: _count(reason, item) for item in Reason}
+
+
+def _count(codes: npt.NDArray[np.uint8], code: int) -> int:
+    """How often a code stands in an array. (np.bincount would make 8 bytes of each first: ten times as slow.)"""
+    return int(np.count_nonzero(codes == np.uint8(code)))
 
 
 def add(total: dict[str, Any], part: Mapping[str, Any]) -> None:

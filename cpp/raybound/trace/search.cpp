@@ -76,7 +76,7 @@ bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed
         const Primitive& primitive = geometry.primitives[index];
         if (!blocks(geometry, primitive, ray, Asking<T>{filtered, brute_force})) return false;
         if (blocker) *blocker = scene.objects()[primitive.object].id;
-        if (last) *last = index;
+        if (last && *last != index) *last = index;  // (other threads may share the cache line)
         return true;
     };
     if (last && *last != Departure::none) {

@@ -63,7 +63,7 @@ class alignas(64) Tracer {
     const Snapshot& scene_;
     TraceSettings settings_;
     RayCounts counts_;
-    std::vector<std::uint32_t> last_blockers_;  // by light
+    LargeArray<std::uint32_t> last_blockers_;  // by light; in cache lines of their own
 };
 
 }  // namespace raybound
