@@ -9,7 +9,7 @@ namespace {
 
 // A read-only view of a buffer's array that keeps the buffer alive.
 template <class T, class Element>
-py::array_t<T> view(const std::shared_ptr<FrameBuffers>& buffers, std::vector<Element>& data,
+py::array_t<T> view(const std::shared_ptr<FrameBuffers>& buffers, LargeArray<Element>& data,
                     std::vector<py::ssize_t> shape) {
     py::array_t<T> array(std::move(shape), reinterpret_cast<const T*>(data.data()), py::cast(buffers));
     array.attr("flags").attr("writeable") = false;

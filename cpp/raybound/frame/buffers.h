@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
+#include "raybound/geometry/large_array.h"
 #include "raybound/geometry/vector.h"
 
 namespace raybound {
@@ -40,11 +40,11 @@ struct FrameBuffers {
     std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
 
     int width, height;
-    std::vector<Vec3f> image;
-    std::vector<float> error_bound;
-    std::vector<std::uint8_t> path, reason;
-    std::vector<std::int32_t> object_id;
-    std::vector<float> depth;
+    LargeArray<Vec3f> image;
+    LargeArray<float> error_bound;
+    LargeArray<std::uint8_t> path, reason;
+    LargeArray<std::int32_t> object_id;
+    LargeArray<float> depth;
 };
 
 }  // namespace raybound

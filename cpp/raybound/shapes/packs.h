@@ -64,7 +64,8 @@ inline Vec3<Pack<T>> load_corner(const TrianglePack& pack, int corner, const She
 
 // `t_max` is measured along the ray; hits that are certainly farther are of no interest.
 template <class T>
-[[gnu::always_inline]] inline std::uint32_t may_cross(const TrianglePack& pack, const TrianglePackRay<T>& ray, T t_max) {
+[[gnu::always_inline]] inline std::uint32_t may_cross(const TrianglePack& pack, const TrianglePackRay<T>& ray,
+                                                      T t_max) {
     using P = Pack<T>;
     const Shear<T>& s = ray.scalar_shear;
     const Corners<P> corners{load_corner(pack, 0, s), load_corner(pack, 1, s), load_corner(pack, 2, s)};
