@@ -40,10 +40,10 @@ std::int32_t face_id(const Crossing<T>& crossing) {
     return crossing.face_offset + crossing.face;
 }
 
-void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const Ray<float>& ray,
+void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const WideRay<float>& ray,
                  float scale) {
     constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
-    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, widen(ray), {true, true});
+    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, ray.wide, {true, true});
     record.hit = true;
     record.t = minimum(at.t / scale, most);
     record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
@@ -104,9 +104,8 @@ std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec
         records[i].t = infinity<float>;
         records[i].object_id = records[i].face_id = -1;
         float scale;
-        const Ray<float> ray = user_ray(origins[i], directions[i], scale, i);
-        const WideRay<float> wide(ray);
-        const Nearest<float> nearest = closest_hit(scene, wide);
+        const WideRay<float> ray(user_ray(origins[i], directions[i], scale, i));
+        const Nearest<float> nearest = closest_hit(scene, ray);
         if (nearest.hit) fill_record(records[i], scene, nearest, ray, scale);
     });
     return records;

@@ -10,7 +10,6 @@ namespace {
 constexpr int bin_count = 32, most_classes = 4;
 constexpr int deepest_sah_level = 40;  // below it the median splits: so the depth stays under 40 + 32 levels of two
 
-// Two floats of padding make four-wide loads of both corners possible.
 struct alignas(16) Item {
     Box bounds;
     std::uint32_t index;
@@ -185,7 +184,7 @@ class Builder {
         }
     }
 
-    // The cheapest of the 3 x 15 planes between bins by the surface area heuristic; range.begin if there is none.
+    // The cheapest of the planes between bins by the surface area heuristic; range.begin if there is none.
     std::uint32_t partition_by_area(const Range& range) {
         Box centers;
         for (std::uint32_t i = range.begin; i < range.end; ++i)

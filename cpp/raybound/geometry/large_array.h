@@ -20,18 +20,20 @@ struct LargePageAllocator {
     bool operator==(const LargePageAllocator&) const { return true; }
 
     T* allocate(std::size_t count) {
-        constexpr std::size_t page = std::size_t(1) << 21;
-        const std::size_t bytes = count * sizeof(T), alignment = bytes >= page ? page : alignof(T);
-        void* memory = ::operator new(bytes, std::align_val_t(alignment < 64 ? 64 : alignment));
+        const std::size_t bytes = count * sizeof(T);
+        void* memory = ::operator new(bytes, alignment(bytes));
 #ifdef __linux__
         if (bytes >= page) madvise(memory, bytes, MADV_HUGEPAGE);  // a hint: nothing is lost where it is not taken
 #endif
         return static_cast<T*>(memory);
     }
-    void deallocate(T* memory, std::size_t count) {
-        constexpr std::size_t page = std::size_t(1) << 21;
-        const std::size_t bytes = count * sizeof(T), alignment = bytes >= page ? page : alignof(T);
-        ::operator delete(memory, std::align_val_t(alignment < 64 ? 64 : alignment));
+    void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count * sizeof(T))); }
+
+  private:
+    static constexpr std::size_t page = std::size_t(1) << 21, cache_line = 64;
+
+    static std::align_val_t alignment(std::size_t bytes) {
+        return std::align_val_t(bytes >= page ? page : alignof(T) > cache_line ? alignof(T) : cache_line);
     }
 };
 

@@ -104,8 +104,8 @@ struct Spans {
 template <class T>
 inline Spans<T> quadric_spans(const Quadric& s, const LocalRay<T>& ray) {
     const T r(s.radius), inf = infinity<T>;
-    const Span<T> box =
-        clip(clip(slab_span(ray, 0, -r, r, 1), slab_span(ray, 1, -r, r, 3)), slab_span(ray, 2, -r, r, 5));
+    Span<T> box = box_span(ray, {-r, -r, -r}, {r, r, r});
+    ++box.face_in, ++box.face_out;  // after the quadric's own
     Spans<T> spans;
     if (none(box.hit)) return spans;
     QuadricLine<T> line = quadric_line(s, ray);

@@ -43,8 +43,7 @@ struct Local {
 
 Local expand(const UnitQuadric& q, const Cell& cell) {
     const Vec3d qz = q.form * cell.center;
-    const Mat3<double> size{absolute(q.form.row[0]), absolute(q.form.row[1]), absolute(q.form.row[2])};
-    const Vec3d bend = size * cell.half;
+    const Vec3d bend = absolute(q.form) * cell.half;
     double squares = 0;
     for (int i = 0; i < 3; ++i) squares += maximum(0.0, q.form.row[i][i]) * cell.half[i] * cell.half[i];
     return {dot(qz + q.linear * 2.0, cell.center) + q.constant, qz + q.linear, bend, dot(bend, cell.half) - squares};
