@@ -86,9 +86,46 @@ inline float acos(float x) {
                   : std::numeric_limits<float>::quiet_NaN();
 }
 
+// Ward's lobe exp(-tan^2(alpha) / sigma^2) from the cosine of alpha (thesis 4.3.7, its sign of tan^2 corrected): the
+// exponent in double, so that nothing cancels where the lobe is bright, and one rounding. Even in the cosine, 0 at 0.
+inline float ward_lobe(float cosine, float sigma) {
+    const double x = cosine, tangent = (1 - x) * (1 + x) / (x * x), s = sigma;
+    const double exponent = minimum(maximum(-tangent / (s * s), -150.0), 150.0);
+    return x == 0 ? 0.0f : x == x ? static_cast<float>(elementary::exp_kernel(exponent)) : cosine;
+}
+
 // The reference: double by the C library, accurate to 2^-52, far below what a float picture can show.
 inline double exp(double x) { return std::exp(x); }
 inline double atan2(double y, double x) { return std::atan2(y, x); }
 inline double acos(double x) { return std::acos(x); }
+inline double ward_lobe(double cosine, double sigma) {
+    return cosine == 0 ? 0.0 : std::exp(-((1 - cosine) * (1 + cosine) / (cosine * cosine)) / (sigma * sigma));
+}
+
+// Not used by kernels, so they may be the C library's; float's are double's, rounded once.
+template <std::floating_point T>
+inline T log(T x) {
+    return static_cast<T>(std::log(double(x)));
+}
+template <std::floating_point T>
+inline T sin(T x) {
+    return static_cast<T>(std::sin(double(x)));
+}
+template <std::floating_point T>
+inline T cos(T x) {
+    return static_cast<T>(std::cos(double(x)));
+}
+template <std::floating_point T>
+inline T tan(T x) {
+    return static_cast<T>(std::tan(double(x)));
+}
+template <std::floating_point T>
+inline T asin(T x) {
+    return static_cast<T>(std::asin(double(x)));
+}
+template <std::floating_point T>
+inline T atan(T x) {
+    return static_cast<T>(std::atan(double(x)));
+}
 
 }  // namespace raybound

@@ -35,6 +35,14 @@ using Mask = typename NumberTraits<T>::Mask;
 template <class T>
 using Wide = typename NumberTraits<T>::Wide;
 
+// The floating-point type that an execution of the kernel would compute in.
+template <class T>
+struct ScalarOf {
+    using type = T;
+};
+template <class T>
+using Scalar = typename ScalarOf<T>::type;
+
 inline bool none(bool mask) { return !mask; }
 
 template <std::floating_point T>
@@ -59,9 +67,29 @@ template <std::floating_point T>
 inline T square(T x) {
     return x * x;
 }
+template <std::floating_point T>
+inline T reciprocal(T x) {
+    return T(1) / x;
+}
+template <std::floating_point T>
+inline T rsqrt(T x) {
+    return T(1) / std::sqrt(x);
+}
 using std::abs;
 using std::copysign;
+using std::fma;
 using std::sqrt;
+
+// The n-th power by repeated squaring: at most |n| roundings. A negative power is the reciprocal of the positive one.
+template <std::floating_point T>
+inline T power(T x, int n) {
+    T result(1), factor = x;
+    for (unsigned rest = n < 0 ? 0u - unsigned(n) : unsigned(n); rest > 0;) {
+        if (rest & 1u) result = result * factor;
+        if ((rest >>= 1) > 0) factor = factor * factor;
+    }
+    return n < 0 ? T(1) / result : result;
+}
 
 template <class T>
 inline constexpr T infinity = std::numeric_limits<T>::infinity();

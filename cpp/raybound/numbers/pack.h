@@ -83,15 +83,9 @@ struct NumberTraits<Pack<T>> {
 };
 
 template <class T>
-struct ScalarOf {
-    using type = T;
-};
-template <class T>
 struct ScalarOf<Pack<T>> {
     using type = T;
 };
-template <class T>
-using Scalar = typename ScalarOf<T>::type;
 
 template <class T>
     requires(!std::is_same_v<Scalar<T>, T>)

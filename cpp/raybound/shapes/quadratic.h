@@ -47,11 +47,17 @@ inline RootSigns<T> root_signs(const Quadratic<T>& q) {
     return {q.discriminant.value >= T(0), low, Mask<T>((product < -q.c.band) | rising)};
 }
 
+// -(b +- sqrt(discriminant)) with the sign of b, where nothing cancels: this over a is one root, c over this the other.
+template <class T>
+inline T stable_numerator(const T& b, const T& discriminant) {
+    const T root = sqrt(maximum(T(0), discriminant));
+    return -(b + copysign(root, b));
+}
+
 template <class T>
 inline Roots<T> solve(const Quadratic<T>& q) {
     const RootSigns<T> signs = root_signs(q);
-    const T root = sqrt(maximum(T(0), q.discriminant.value));
-    const T stable = -(q.b + copysign(root, q.b));
+    const T stable = stable_numerator(q.b, q.discriminant.value);
     const T first = stable / q.a;
     const T second = select(stable == T(0), first, q.c.value / stable);
     return {minimum(first, second), maximum(first, second), signs.real, signs.low_ahead, signs.high_ahead};

@@ -6,7 +6,7 @@
 namespace raybound {
 
 template <class T>
-inline constexpr T largest = std::numeric_limits<T>::max();
+inline const T largest = T(std::numeric_limits<Scalar<T>>::max());
 
 // Sums and products of radiance may exceed the range of T; the largest number stands for "beyond": no infinity, and so
 // no NaN, enters a picture.
@@ -23,12 +23,13 @@ inline T ward_lobe(const Vec3<T>& n, const Vec3<T>& h, T sigma) {
     return exp(-(dot(sine, sine) / square(dot(n, h) * sigma)));
 }
 
-// exp(...) sqrt(N.L / N.V) / (4 sigma^2): the specular term without rho_s; 0 where rounding leaves N.V <= 0.
+// exp(...) sqrt(N.L / N.V) / (4 sigma^2): the specular term without rho_s; 0 where rounding leaves N.V <= 0. The root is
+// kept finite, so that a lobe that has vanished makes it 0.
 template <class T>
 inline T ward_specular(const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v, T n_dot_l, T n_dot_v, T sigma) {
     const T lobe = ward_lobe(n, l + v, sigma);
-    const T value = lobe * sqrt(n_dot_l / n_dot_v) / (T(4) * square(sigma));
-    return select((n_dot_v > T(0)) & (lobe > T(0)), minimum(value, largest<T>), T(0));  // no 0 times infinity
+    const T value = lobe * minimum(sqrt(n_dot_l / n_dot_v), largest<T>) / (T(4) * square(sigma));
+    return select(n_dot_v > T(0), minimum(value, largest<T>), T(0));
 }
 
 // rho_d (N.L) + rho_s specular (thesis eq. 4.1 and 4.2; Ward's 1/pi is folded into the light).

@@ -1,0 +1,47 @@
+"""Numbers that carry their error, and the functions of all numbers."""
+
+from .functions import (
+    abs,
+    acos,
+    asin,
+    atan,
+    cos,
+    exp,
+    fma,
+    log,
+    maximum,
+    minimum,
+    power,
+    reciprocal,
+    rsqrt,
+    sin,
+    sqrt,
+    square,
+    tan,
+    ward_lobe,
+)
+from .interval import Interval
+from .taylor_model import TaylorModel
+
+__all__ = [
+    "Interval",
+    "TaylorModel",
+    "abs",
+    "acos",
+    "asin",
+    "atan",
+    "cos",
+    "exp",
+    "fma",
+    "log",
+    "maximum",
+    "minimum",
+    "power",
+    "reciprocal",
+    "rsqrt",
+    "sin",
+    "sqrt",
+    "square",
+    "tan",
+    "ward_lobe",
+]
