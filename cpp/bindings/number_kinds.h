@@ -84,8 +84,7 @@ void register_kind(const std::string& name) {
     });
     operations::for_each(operations::parametric, [&](const auto& operation) {
         kind.operations[operation.name] = [f = operation.apply](const std::vector<py::array>& a, double parameter) {
-            return apply_to_records<T, 1>(
-                a, [f, p = Parameter(parameter)](const auto& x) { return T(f(x[0], p)); });
+            return apply_to_records<T, 1>(a, [f, p = Parameter(parameter)](const auto& x) { return T(f(x[0], p)); });
         };
     });
 }

@@ -59,8 +59,8 @@ std::array<double, std::size_t(N)> in_cell(const double* x, const double* center
     for (int i = 0; i < N; ++i) {
         if (!is_in_cell(x[i], center[i], radius[i]))
             throw std::invalid_argument("TaylorModel: x must lie in the cell, " + std::to_string(center[i]) + " +- " +
-                                        std::to_string(radius[i]) + " along variable " + std::to_string(i) +
-                                        ", got " + std::to_string(x[i]));
+                                        std::to_string(radius[i]) + " along variable " + std::to_string(i) + ", got " +
+                                        std::to_string(x[i]));
         normal[std::size_t(i)] = normalised(x[i], center[i], radius[i]);
     }
     return normal;
@@ -99,9 +99,9 @@ Doubles substituted(const Doubles& models, const Map& map) {
         xi = normalised_coordinate<M>(map.centers.data()[i], map.radii.data()[i], map.constants.data()[i],
                                       map.slopes.data() + i * M, map.new_centers.data(), map.new_radii.data());
         if (!map.is_part && !(xi.low() >= -1 && xi.high() <= 1))
-            throw std::invalid_argument("TaylorModel: the image of the new cell must lie in the cell, got normalised [" +
-                                        std::to_string(xi.low()) + ", " + std::to_string(xi.high()) +
-                                        "] along variable " + std::to_string(i));
+            throw std::invalid_argument(
+                "TaylorModel: the image of the new cell must lie in the cell, got normalised [" +
+                std::to_string(xi.low()) + ", " + std::to_string(xi.high()) + "] along variable " + std::to_string(i));
     }
     const py::ssize_t n = models.size() / Taylor<N, A>::width;
     Doubles out({n, py::ssize_t(Taylor<M, A>::width)});

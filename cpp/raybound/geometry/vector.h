@@ -21,7 +21,7 @@ struct Vec3 {
         z = v.z;
         return *this;
     }
-    constexpr Vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
+    constexpr Vec3(const T& x_, const T& y_, const T& z_) : x(x_), y(y_), z(z_) {}
     template <class S>
     constexpr explicit Vec3(const Vec3<S>& v)
         : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
@@ -61,11 +61,12 @@ constexpr Vec3<T> operator*(T s, const Vec3<T>& a) {
 
 template <class T>
 constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return sum_of_products(a.x, b.x, a.y, b.y, a.z, b.z);
 }
 template <class T>
 constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
 }
 template <class T>
 inline T length(const Vec3<T>& a) {

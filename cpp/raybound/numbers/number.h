@@ -91,6 +91,17 @@ inline T power(T x, int n) {
     return n < 0 ? T(1) / result : result;
 }
 
+// What dot and cross products consist of, so that a number type can do it in one go. The order of rounding is part of
+// the specification.
+template <class T>
+constexpr T sum_of_products(const T& a, const T& b, const T& c, const T& d, const T& e, const T& f) {
+    return a * b + c * d + e * f;
+}
+template <class T>
+constexpr T difference_of_products(const T& a, const T& b, const T& c, const T& d) {
+    return a * b - c * d;
+}
+
 template <class T>
 inline constexpr T infinity = std::numeric_limits<T>::infinity();
 

@@ -41,8 +41,8 @@ inline TaylorModel<N, A> compose(const TaylorModel<N, A>& a, const Expansion& g,
     const double first = std::abs(g.first), half_second = std::abs(g.half_second), squares = n1 * n1;
     const double cut = first * r + half_second * (n2 * (2 * n1 + n2) + r * (2 * (n1 + n2) + r)) +
                        g.sixth_third * (deviation * deviation * deviation);
-    const double rounding = 0x1p-49 * (std::abs(g.value) + first * (n1 + n2) + half_second * squares) +
-                            g.value_error + g.first_error * (n1 + n2) + g.half_second_error * squares;
+    const double rounding = 0x1p-49 * (std::abs(g.value) + first * (n1 + n2) + half_second * squares) + g.value_error +
+                            g.first_error * (n1 + n2) + g.half_second_error * squares;
     const double remainder = cut + rounding + underflow_bound;
     if (!(remainder < 0.5 * (ends.high - ends.low))) return within<N, A>(ends, roundings);
     TaylorPolynomial<N> polynomial =

@@ -72,8 +72,8 @@ inline TaylorModel<N, A> rsqrt(const TaylorModel<N, A>& a) {
     if (!taylor::is_positive_and_tame(a)) return within<N, A>(ends, 2);
     const double c = a.constant(), ratio = taylor::ratio(a), value = 1 / std::sqrt(c), inverse = 1 / c;
     const double first = -0.5 * value * inverse;
-    const double sixth_third = 0.3125 * value * (inverse * inverse * inverse) * (ratio * ratio * ratio) *
-                               (0.5 + 0.5 * ratio) * upward;
+    const double sixth_third =
+        0.3125 * value * (inverse * inverse * inverse) * (ratio * ratio * ratio) * (0.5 + 0.5 * ratio) * upward;
     return compose(a, {value, 0, first, -0.75 * first * inverse, sixth_third}, ends, 2);
 }
 
@@ -146,7 +146,8 @@ inline TaylorModel<N, A> tan(const TaylorModel<N, A>& a) {
     const double largest = std::fmax(std::abs(ends.low), std::abs(ends.high));
     if (!(largest < 0x1p60)) return largest < 0x1p500 ? within<N, A>(ends, 2) : TaylorModel<N, A>::entire();
     const Range at = tan_range(a.constant(), a.constant());
-    const double t = taylor::middle(at), first = 1 + t * t, error = taylor::radius(at) * 8 * (first * (1 + std::abs(t)));
+    const double t = taylor::middle(at), first = 1 + t * t,
+                 error = taylor::radius(at) * 8 * (first * (1 + std::abs(t)));
     const double squared = largest * largest;
     const double sixth_third = (1.0 / 3) * (1 + squared) * (1 + 3 * squared) * upward;
     return compose(a, {t, error, first, t * first, sixth_third, error, error}, ends, 2);

@@ -49,6 +49,15 @@ class TaylorModel {
     using Run = Execution<A>;
 
     TaylorModel() = default;
+    RAYBOUND_INLINE TaylorModel(const TaylorModel& o)
+        : polynomial_(o.polynomial_), first_(o.first_), second_(o.second_), remainder_(o.remainder_) {}
+    RAYBOUND_INLINE TaylorModel& operator=(const TaylorModel& o) {
+        polynomial_ = o.polynomial_;
+        first_ = o.first_;
+        second_ = o.second_;
+        remainder_ = o.remainder_;
+        return *this;
+    }
     explicit TaylorModel(double constant) { polynomial_.part[0] = Four{constant, 0, 0, 0}; }
     // The variable x_i: center + radius x_i.
     static TaylorModel variable(int i, double center, double radius) {
@@ -64,9 +73,13 @@ class TaylorModel {
     }
     // The same function for an execution in another arithmetic; into float32 it is rounded once.
     template <Arithmetic B>
-    explicit TaylorModel(const TaylorModel<N, B>& x) {
-        constexpr bool narrows = A == Arithmetic::float32 && B == Arithmetic::float64;
-        *this = narrows ? executed(x.polynomial(), x.remainder()) : certified(x.polynomial(), x.remainder());
+    RAYBOUND_INLINE explicit TaylorModel(const TaylorModel<N, B>& x)
+        : polynomial_(x.polynomial()), first_(x.first_norm()), second_(x.second_norm()), remainder_(x.remainder()) {
+        if constexpr (A == Arithmetic::float32 && B == Arithmetic::float64)
+            remainder_ = (remainder_ + (Run::unit_roundoff * magnitude() + Run::underflow)) * upward;
+        if constexpr (Run::largest < Execution<B>::largest)
+            if (!(magnitude() < Run::largest)) [[unlikely]]
+                forget();
     }
 
     const Polynomial& polynomial() const { return polynomial_; }
@@ -78,13 +91,13 @@ class TaylorModel {
     double first_norm() const { return first_; }    // |A_1| = sum |l_i|
     double second_norm() const { return second_; }  // |A_2| = sum |q_i| + sum |x_ij|
     // Bounds of |f - c| and |f|.
-    double deviation() const { return first_ + second_ + remainder_; }
-    double magnitude() const { return std::abs(constant()) + deviation(); }
+    RAYBOUND_INLINE double deviation() const { return first_ + second_ + remainder_; }
+    RAYBOUND_INLINE double magnitude() const { return std::abs(constant()) + deviation(); }
     bool is_known() const { return remainder_ < std::numeric_limits<double>::infinity(); }
     bool is_constant() const { return deviation() == 0; }
     // Ends of the range, rounded outward.
-    double low() const { return constant() - deviation() * upward - rounding(); }
-    double high() const { return constant() + deviation() * upward + rounding(); }
+    RAYBOUND_INLINE double low() const { return constant() - deviation() * upward - rounding(); }
+    RAYBOUND_INLINE double high() const { return constant() + deviation() * upward + rounding(); }
 
     // The model with just these coefficients and this remainder; `entire` if they are not numbers.
     static TaylorModel exactly(const Polynomial& polynomial, double remainder) {
@@ -97,15 +110,15 @@ class TaylorModel {
         return result.magnitude() < Run::largest ? result : entire();
     }
     // A model from coefficients and a bound of everything that was left out, computed upward but for the last factor.
-    static TaylorModel certified(const Polynomial& polynomial, double remainder) {
+    RAYBOUND_INLINE static TaylorModel certified(const Polynomial& polynomial, double remainder) {
         return finished(polynomial, remainder, false);
     }
     // The same for the result of an operation, which the execution rounds.
-    static TaylorModel executed(const Polynomial& polynomial, double remainder) {
+    RAYBOUND_INLINE static TaylorModel executed(const Polynomial& polynomial, double remainder) {
         return finished(polynomial, remainder, true);
     }
     // ... and for one of which the execution's result is off by several roundings.
-    static TaylorModel executed(const Polynomial& polynomial, double remainder, double roundings) {
+    RAYBOUND_INLINE static TaylorModel executed(const Polynomial& polynomial, double remainder, double roundings) {
         return finished(polynomial, remainder, true, roundings);
     }
 
@@ -127,47 +140,77 @@ class TaylorModel {
         return executed(product(a.polynomial_, b.polynomial_), product_remainder(a, b));
     }
 
+    // a b + c d + e f and a b - c d, of which an execution rounds each product and each sum. A product's bound stands
+    // for its range: |a b| <= |a| |b|.
+    friend TaylorModel sum_of_products(const TaylorModel& a, const TaylorModel& b, const TaylorModel& c,
+                                       const TaylorModel& d, const TaylorModel& e, const TaylorModel& f) {
+        const double ab = a.magnitude() * b.magnitude(), cd = c.magnitude() * d.magnitude(),
+                     ef = e.magnitude() * f.magnitude();
+        const double cut = product_cut(a, b) + product_cut(c, d) + product_cut(e, f);
+        return fused(product(a.polynomial_, b.polynomial_) + product(c.polynomial_, d.polynomial_) +
+                         product(e.polynomial_, f.polynomial_),
+                     cut, ab + cd + ef, (ab + cd) * 2 + ef);
+    }
+    friend TaylorModel difference_of_products(const TaylorModel& a, const TaylorModel& b, const TaylorModel& c,
+                                              const TaylorModel& d) {
+        const double ab = a.magnitude() * b.magnitude(), cd = c.magnitude() * d.magnitude();
+        return fused(product(a.polynomial_, b.polynomial_) - product(c.polynomial_, d.polynomial_),
+                     product_cut(a, b) + product_cut(c, d), ab + cd, ab + cd);
+    }
+
     // What the polynomials' product leaves out, and what rounding it may have changed.
-    static double product_remainder(const TaylorModel& a, const TaylorModel& b) {
-        const double a0 = std::abs(a.constant()), b0 = std::abs(b.constant());
-        const double a_known = a0 + a.first_ + a.second_, b_known = b0 + b.first_ + b.second_;
-        return a.first_ * b.second_ + a.second_ * (b.first_ + b.second_) + a.remainder_ * (b_known + b.remainder_) +
-               b.remainder_ * a_known + (0x1p-50 * a_known * b_known + underflow_bound);
+    RAYBOUND_INLINE static double product_cut(const TaylorModel& a, const TaylorModel& b) {
+        const double a_known = std::abs(a.constant()) + a.first_ + a.second_;
+        return a.first_ * b.second_ + a.second_ * (b.first_ + b.second_) + a.remainder_ * b.magnitude() +
+               b.remainder_ * a_known;
+    }
+    // ... and what rounding it may have changed.
+    RAYBOUND_INLINE static double product_remainder(const TaylorModel& a, const TaylorModel& b) {
+        return product_cut(a, b) + (0x1p-50 * (a.magnitude() * b.magnitude()) + underflow_bound);
     }
 
   private:
-    double rounding() const { return 0x1p-52 * (std::abs(constant()) + deviation()) + underflow_bound; }
+    RAYBOUND_INLINE double rounding() const { return 0x1p-52 * (std::abs(constant()) + deviation()) + underflow_bound; }
 
     // a times a number that is the same everywhere, up to its remainder.
-    static TaylorModel scaled(const TaylorModel& a, const TaylorModel& s) {
+    RAYBOUND_INLINE static TaylorModel scaled(const TaylorModel& a, const TaylorModel& s) {
         const double factor = std::abs(s.constant()), size = a.magnitude();
         return executed(a.polynomial_ * s.constant(),
                         a.remainder_ * factor + size * s.remainder_ + (0x1p-53 * size * factor + underflow_bound));
     }
+    // A sum of products: `sizes` bounds the sum of what was multiplied, `intermediate` the sum of what an execution
+    // rounds before its last sum. Coefficients are off by at most gamma_7 of `sizes`.
+    RAYBOUND_INLINE static TaylorModel fused(const Polynomial& sum, double cut, double sizes, double intermediate) {
+        const double rounding = 0x1p-49 * sizes + underflow_bound;
+        return executed(sum, cut + rounding + Run::unit_roundoff * intermediate + 5 * Run::underflow);
+    }
     // A sum's coefficients have one rounding each, of the result; nothing underflows.
-    static TaylorModel summed(const Polynomial& sum, double remainder) {
+    RAYBOUND_INLINE static TaylorModel summed(const Polynomial& sum, double remainder) {
         const auto [first, second] = sum.norms();
         const double known = std::abs(sum.constant()) + first + second;
         return finished(sum, first, second, known, remainder + 0x1p-53 * known, Run::unit_roundoff, 0);
     }
-    static TaylorModel finished(const Polynomial& polynomial, double remainder, bool rounds, double roundings = 1) {
+    RAYBOUND_INLINE static TaylorModel finished(const Polynomial& polynomial, double remainder, bool rounds,
+                                                double roundings = 1) {
         const auto [first, second] = polynomial.norms();
         const double known = std::abs(polynomial.constant()) + first + second;
         const double relative = rounds ? Run::unit_roundoff * roundings : 0;
         return finished(polynomial, first, second, known, remainder, relative, rounds ? Run::underflow * roundings : 0);
     }
-    static TaylorModel finished(const Polynomial& polynomial, double first, double second, double known,
-                                double remainder, double relative, double absolute) {
-        TaylorModel result;
+    RAYBOUND_INLINE static TaylorModel finished(const Polynomial& polynomial, double first, double second, double known,
+                                                double remainder, double relative, double absolute) {
         if constexpr (Run::unit_roundoff > 0) remainder += relative * (known + remainder) + absolute;
         remainder *= upward;
-        if (!(known + remainder < Run::largest)) return entire();  // NaN too
+        TaylorModel result;
         result.polynomial_ = polynomial;
         result.first_ = first;
         result.second_ = second;
         result.remainder_ = remainder;
+        if (!(known + remainder < Run::largest)) [[unlikely]]
+            result.forget();  // NaN too
         return result;
     }
+    [[gnu::noinline]] void forget() { *this = entire(); }
 
     Polynomial polynomial_;
     double first_ = 0, second_ = 0, remainder_ = 0;

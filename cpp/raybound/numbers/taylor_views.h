@@ -47,8 +47,8 @@ inline double interpolation_bound(const TaylorModel<N, A>& f) {
     return (std::fmax(positive, negative) + 2 * f.remainder()) * upward;
 }
 
-// The value at a point of [-1, 1]^N: what is evaluated in double, widened by its roundings (at most 8 for each term, two
-// of each coordinate included) and by the remainder.
+// The value at a point of [-1, 1]^N: what is evaluated in double, widened by its roundings (at most 8 for each term,
+// two of each coordinate included) and by the remainder.
 template <int N, Arithmetic A>
 inline Interval<double> value_at(const TaylorModel<N, A>& f, const double* x) {
     if (!f.is_known()) return Interval<double>::entire();

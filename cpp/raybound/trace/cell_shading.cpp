@@ -19,7 +19,8 @@ Met<W> meet_sphere(const CellSurface& sphere, const Vec3<W>& origin, const Vec3<
     const SphereTerms<W> terms = sphere_terms(f, direction, W(sphere.radius));
     const W discriminant = terms.r2 * terms.a - dot(terms.moment, terms.moment);
     const W t = (dot(f, f) - terms.r2) / stable_numerator(terms.b, discriminant);
-    return {origin + direction * t, (f + direction * t) * W(1.0 / double(sphere.radius))};
+    const Vec3<W> way = direction * t;
+    return {origin + way, (f + way) * W(1.0 / double(sphere.radius))};
 }
 
 template <class W>
@@ -35,10 +36,14 @@ template <class T, int N>
 BundleRay<T> family_ray(const RayFamily<N>& family, const std::array<Wide<T>, std::size_t(N)>& x) {
     using W = Wide<T>;
     Vec3<W> origin(family.origin), direction(family.direction);
-    for (std::size_t i = 0; i < N; ++i) {
-        if (family.origin_slopes[i] != Vec3d{}) origin = origin + Vec3<W>(family.origin_slopes[i]) * x[i];
-        if (family.direction_slopes[i] != Vec3d{}) direction = direction + Vec3<W>(family.direction_slopes[i]) * x[i];
-    }
+    const auto add = [](W& to, double slope, const W& variable) {
+        if (slope != 0) to = to + W(slope) * variable;
+    };
+    for (std::size_t i = 0; i < N; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            add(origin[axis], family.origin_slopes[i][axis], x[i]);
+            add(direction[axis], family.direction_slopes[i][axis], x[i]);
+        }
     return {Vec3<T>(origin), Vec3<T>(normalize(direction))};
 }
 
@@ -47,8 +52,9 @@ Vec3<T> cell_radiance(const CellScene& scene, const BundleRay<T>& ray) {
     using W = Wide<T>;
     Vec3<T> origin = ray.origin, direction = ray.direction;
     for (const CellSurface& surface : scene.surfaces) {
-        const Met<W> met = surface.kind == SurfaceKind::sphere ? meet_sphere(surface, Vec3<W>(origin), Vec3<W>(direction))
-                                                               : meet_plane(surface, Vec3<W>(origin), Vec3<W>(direction));
+        const Met<W> met = surface.kind == SurfaceKind::sphere
+                               ? meet_sphere(surface, Vec3<W>(origin), Vec3<W>(direction))
+                               : meet_plane(surface, Vec3<W>(origin), Vec3<W>(direction));
         const Vec3<T> point(met.point), normal(met.normal);
         if (surface.is_mirror) {
             origin = point;

@@ -12,10 +12,10 @@ enum class SurfaceKind : std::uint8_t { sphere, plane };
 
 struct CellSurface {
     SurfaceKind kind = SurfaceKind::sphere;
-    Vec3f center;          // or a point of the plane
-    Vec3f normal;          // of the plane, a unit vector on the side of the rays
-    float radius = 1;      // of the sphere, seen from outside
-    Material material;     // without texture
+    Vec3f center;            // or a point of the plane
+    Vec3f normal;            // of the plane, a unit vector on the side of the rays
+    float radius = 1;        // of the sphere, seen from outside
+    Material material;       // without texture
     bool is_mirror = false;  // reflects only: radiance is that of the next surface
 };
 

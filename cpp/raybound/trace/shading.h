@@ -23,8 +23,8 @@ inline T ward_lobe(const Vec3<T>& n, const Vec3<T>& h, T sigma) {
     return exp(-(dot(sine, sine) / square(dot(n, h) * sigma)));
 }
 
-// exp(...) sqrt(N.L / N.V) / (4 sigma^2): the specular term without rho_s; 0 where rounding leaves N.V <= 0. The root is
-// kept finite, so that a lobe that has vanished makes it 0.
+// exp(...) sqrt(N.L / N.V) / (4 sigma^2): the specular term without rho_s; 0 where rounding leaves N.V <= 0. The root
+// is kept finite, so that a lobe that has vanished makes it 0.
 template <class T>
 inline T ward_specular(const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v, T n_dot_l, T n_dot_v, T sigma) {
     const T lobe = ward_lobe(n, l + v, sigma);
