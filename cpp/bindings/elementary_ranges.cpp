@@ -9,23 +9,39 @@ namespace raybound::python {
 
 namespace {
 
-using RangeFunction = Range (*)(double, double);
+namespace v = elementary_values;
 
-RangeFunction range_function(const std::string& name) {
-    static const std::map<std::string, RangeFunction> functions = {
-        {"exp", exp_range}, {"log", log_range},   {"sin", sin_range},   {"cos", cos_range},
-        {"tan", tan_range}, {"asin", asin_range}, {"acos", acos_range}, {"atan", atan_range}};
+DoubleDouble exp_double_double(double x) {
+    const v::Scaled found = v::exp_value(x);
+    const double scale = power_of_two(found.exponent);
+    return {found.significand.high * scale, found.significand.low * scale};
+}
+
+struct Function {
+    Range (*range)(double, double);
+    DoubleDouble (*value)(double);
+};
+
+const Function& function(const std::string& who, const std::string& name) {
+    static const std::map<std::string, Function> functions = {
+        {"exp", {exp_range, exp_double_double}},
+        {"log", {log_range, v::log_value}},
+        {"sin", {sin_range, [](double x) { return v::sine_value(quarter_turns(x), 0); }}},
+        {"cos", {cos_range, [](double x) { return v::sine_value(quarter_turns(x), 1); }}},
+        {"tan", {tan_range, [](double x) { return v::tangent_value(quarter_turns(x)); }}},
+        {"asin", {asin_range, v::asin_value}},
+        {"acos", {acos_range, v::acos_value}},
+        {"atan", {atan_range, v::atan_value}}};
     const auto found = functions.find(name);
     if (found == functions.end())
         throw std::invalid_argument(
-            "elementary_range: name must be 'exp', 'log', 'sin', 'cos', 'tan', 'asin', 'acos' or 'atan', got '" + name +
-            "'");
+            who + ": name must be 'exp', 'log', 'sin', 'cos', 'tan', 'asin', 'acos' or 'atan', got '" + name + "'");
     return found->second;
 }
 
 // The ranges over [lo, hi], element by element: (inf, sup).
 std::tuple<Doubles, Doubles> elementary_range(const std::string& name, const Doubles& lo, const Doubles& hi) {
-    const RangeFunction range = range_function(name);
+    const auto range = function("elementary_range", name).range;
     const std::vector<py::ssize_t> shape(lo.shape(), lo.shape() + lo.ndim());
     if (!std::equal(shape.begin(), shape.end(), hi.shape(), hi.shape() + hi.ndim()))
         throw std::invalid_argument("elementary_range: lo and hi must have the same shape");
@@ -46,26 +62,10 @@ std::tuple<Doubles, Doubles> elementary_range(const std::string& name, const Dou
     return {inf, sup};
 }
 
-DoubleDouble exp_double_double(double x) {
-    const elementary_values::Scaled v = elementary_values::exp_value(x);
-    const double scale = power_of_two(v.exponent);
-    return {v.significand.high * scale, v.significand.low * scale};
-}
-
-// What is rounded outward, at points of the domain that need no special care (exp: 2^-54 <= |x| < 600; the others: |x|
-// >= 2^-26).
+// What is rounded outward: (high, low). Arguments that need no special care: exp: 2^-54 <= |x| < 600; log: x > 0; the
+// others: |x| >= 2^-26.
 std::tuple<Doubles, Doubles> elementary_range_values(const std::string& name, const Doubles& x) {
-    namespace v = elementary_values;
-    static const std::map<std::string, DoubleDouble (*)(double)> functions = {
-        {"exp", exp_double_double},
-        {"log", v::log_value},
-        {"sin", [](double a) { return v::sine_value(quarter_turns(a), 0); }},
-        {"cos", [](double a) { return v::sine_value(quarter_turns(a), 1); }},
-        {"tan", [](double a) { return v::tangent_value(quarter_turns(a)); }},
-        {"asin", v::asin_value},
-        {"acos", v::acos_value},
-        {"atan", v::atan_value}};
-    const auto value = functions.at(name);
+    const auto value = function("elementary_range_values", name).value;
     const std::vector<py::ssize_t> shape(x.shape(), x.shape() + x.ndim());
     Doubles high(shape), low(shape);
     for (py::ssize_t i = 0; i < x.size(); ++i) {

@@ -56,7 +56,8 @@ def test_points(name: str, n: int) -> None:
         wide += sides
     assert len(x) > 0.95 * n
     assert np.sum(np.abs(x) < 2.0**-1022) > n / 60
-    # Hard by design: ln(1 + 2^-52) and cos(2^-26) are within 2^-100 of a double. Seen: WIDE.
+    # Hard by design: ln(1 + 2^-52) and cos(2^-26) are within 2^-100 of a double. Seen: 1.1 % of ln's, 1 in 8000
+    # of exp's and cos's, none of tan's.
     assert wide <= 0.04 * n
 
 
@@ -69,7 +70,7 @@ def test_points_at_random_are_the_tightest(name: str, n: int) -> None:
     wide = sum(
         wider_sides(found, exact.tightest_at(name, value)) for value, found in zip(x.tolist(), ranges(name, x, x))
     )
-    assert wide <= 1  # seen: WIDE_RANDOM
+    assert wide <= 1  # seen: 1 of 800 000
 
 
 @pytest.mark.parametrize("name", ["sin", "cos", "tan"])
@@ -128,11 +129,11 @@ def test_intervals(name: str, n: int) -> None:
         counts["unbounded"] += INF in (-tight[0], tight[1])
         counts["extremum"] += -1 == tight[0] or tight[1] == 1
         counts["strict"] += a < b
-    assert counts["strict"] > 0.5 * n
+    assert counts["strict"] > 0.4 * n
     assert counts["empty"] > (n / 50 if name in exact.DOMAIN else -1)
     assert counts["unbounded"] > (n / 50 if name in ("exp", "log", "tan") else -1)
     assert counts["extremum"] > (n / 10 if name in ("sin", "cos") else -1)
-    assert wide <= 0.02 * n  # see test_points; seen: WIDE_INTERVALS
+    assert wide <= 0.02 * n  # see test_points; seen: 0.5 % for ln
 
 
 @pytest.mark.parametrize("n", SHORT_AND_LONG)
@@ -214,7 +215,7 @@ def test_error_of_the_values_that_are_rounded(name: str, n: int) -> None:
         worst = max(worst, float(abs((Ball(high) + Ball(low) - true) / true).mid()))
         assert high == high + low
     assert len(x) > 0.4 * n
-    assert 2.0**-110 < worst <= 2.0**-74, f"{worst * 2.0**74} of the bound"  # seen: ERROR
+    assert 2.0**-110 < worst <= 2.0**-74, f"{worst * 2.0**74} of the bound"  # seen: 0.12, tan
 
 
 def worst_of(table: np.ndarray, values: list[Ball]) -> float:
@@ -236,7 +237,7 @@ def test_constants_and_tables() -> None:
         "exp2": [(Ball(j) / 64 * Ball.const_log2()).exp() for j in range(64)],
     }
     for name, values in tables.items():
-        assert worst_of(t[name], values) < 2.0**-97  # seen: TABLE
+        assert worst_of(t[name], values) < 2.0**-100  # seen: 2^-103.7
     with flint.ctx.workprec(1500):
         bits = int((2 / Ball.pi() * Ball(2) ** 1280).floor().unique_fmpz())
     assert t["two_over_pi"] == [bits >> 64 * i & (2**64 - 1) for i in range(20, -1, -1)]

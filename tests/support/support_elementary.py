@@ -208,7 +208,7 @@ def arguments(name: str, n: int, rng: np.random.Generator) -> np.ndarray:
 
 def intervals(name: str, n: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """Ends of about n intervals: of a few doubles to everything, some infinite, some outside of the domain."""
-    x = np.concatenate([arguments(name, n // 2, rng), all_exponents(n // 8, rng)])
+    x = np.concatenate([arguments(name, 7 * n // 8, rng), all_exponents(n // 8, rng)])
     widths = 2.0 ** rng.uniform(-60, 8, len(x))
     with np.errstate(over="ignore"):
         others = [steps_away(x, rng, 3), rng.permutation(x), -x, x * (1 + widths), *[x + widths] * 2, *[x - widths] * 2]

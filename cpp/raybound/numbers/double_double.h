@@ -94,9 +94,9 @@ constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
     return fast_two_sum(quotient, rest / b.high);
 }
 
-// a >= 0. With s = sqrt(a.high)(1 + d), |d| <= u, the exact next Newton step is off by d^2/2; the residual is exact but
-// for the roundings of its last two sums, 3 u^2 of a, and the quotient's own is u^2: together 4 u^2 < 2^-103 of the
-// root.
+// a >= 0: a Newton step from the root of a.high, which is off by 1.5 u at most: its square's half remains. The residual
+// is below 4 u a and has two roundings, 7 u^2 a, the quotient one: with 3.5 u^2, 2 u^2 and 1.2 u^2 of the root below
+// 2^-103.
 inline DoubleDouble sqrt(DoubleDouble a) {
     if (!(a.high > 0)) return {};
     const double root = std::sqrt(a.high);
