@@ -98,6 +98,7 @@ inline Watch watcher(const py::object& progress) {
 }
 
 void register_numbers(py::module_& m);
+void register_elementary_ranges(py::module_& m);
 void register_transforms(py::module_& m);
 void register_shapes(py::module_& m);
 void register_materials(py::module_& m);
