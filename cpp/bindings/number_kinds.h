@@ -90,7 +90,7 @@ void register_kind(const std::string& name) {
 }
 
 void register_float_kinds();
-void register_interval_kinds();
+void register_interval_kinds(py::module_& m);
 void register_taylor_kinds(py::module_& m);
 
 }  // namespace raybound::python
