@@ -106,6 +106,17 @@ inline bool all_between(V x, Value<V> low, Value<V> high) {
     return all((x >= low) & (x < high));
 }
 
+template <class V>
+inline bool all_finite(V x) {
+#ifdef __AVX512DQ__
+    constexpr int not_finite = 0x99;  // quiet and signalling NaN, either infinity
+    if constexpr (sizeof(V) == 64 && count<V> == 8)
+        return _mm512_fpclass_pd_mask((__m512d)x, not_finite) == 0;
+    else
+#endif
+        return all(magnitude(x) < every<V>(std::numeric_limits<Value<V>>::infinity()));
+}
+
 // x where `sign` is positive, else 0. A number is masked as a vector is: its sign cannot be predicted, and compilers
 // would branch.
 template <class V>
