@@ -184,9 +184,9 @@ class Interval {
         if (!lanes::all_finite(a.ends_ + b.ends_)) [[unlikely]]
             return of_special_products(a, b, up);
         const Ends zero{}, minus_inf = lanes::every<Ends>(a.ends_[0]), sup = lanes::every<Ends>(a.ends_[1]);
-        const Ends ordered = lanes::negated_first(b.ends_), reversed = swapped(ordered);
-        const Ends first = up(swapped(lanes::negated_first(minus_inf)), minus_inf <= zero ? ordered : reversed);
-        const Ends second = up(lanes::negated_first(sup), sup >= zero ? ordered : reversed);
+        const Ends ordered = lanes::flipped(b.ends_, -1, 1), reversed = swapped(ordered);
+        const Ends first = up(lanes::flipped(minus_inf, 1, -1), minus_inf <= zero ? ordered : reversed);
+        const Ends second = up(lanes::flipped(sup, -1, 1), sup >= zero ? ordered : reversed);
         return with_float32(lanes::greater(first, second));
     }
     // 0 times an infinite end is 0: the end is no member.

@@ -1,4 +1,4 @@
-// Eight intervals side by side, with the same bits as Interval's.
+// Intervals side by side, as many as registers hold, with the same bits as Interval's.
 #pragma once
 
 #include <cstring>
@@ -8,10 +8,10 @@
 namespace raybound {
 
 // As in Interval, the ends are kept as -inf and sup, so that both round up. Where a lane holds a special case (an empty
-// or unbounded operand, a divisor around 0), all eight go through Interval.
+// or unbounded operand, a divisor around 0), all go through Interval.
 template <std::floating_point T, class Rounding = DirectedRounding>
 struct IntervalPack {
-    static constexpr int width = 8;
+    static constexpr int width = native_lanes;
     using V = Lanes<T, width>;
     using One = Interval<T, Arithmetic::real, Rounding>;
 
@@ -77,8 +77,7 @@ struct IntervalPack {
     static V sum(V a, V b) { return lanes::greater(Rounding::add_up(a, b), lanes::every<V>(-infinity<T>)); }
 
     template <class Function>
-    [[gnu::noinline]] static IntervalPack one_by_one(const IntervalPack& a, const IntervalPack& b,
-                                                     const IntervalPack& c, Function f) {
+    [[gnu::noinline]] static IntervalPack one_by_one(IntervalPack a, IntervalPack b, IntervalPack c, Function f) {
         IntervalPack result{};
         for (int i = 0; i < width; ++i) {
             const One x = f(a[i], b[i], c[i]);
