@@ -98,6 +98,8 @@ inline Watch watcher(const py::object& progress) {
 }
 
 void register_numbers(py::module_& m);
+void register_running_errors(py::module_& m);
+void register_linear_intervals(py::module_& m);
 void register_transforms(py::module_& m);
 void register_shapes(py::module_& m);
 void register_materials(py::module_& m);

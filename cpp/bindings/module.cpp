@@ -18,6 +18,8 @@ PYBIND11_MODULE(RAYBOUND_MODULE, m) {
     m.attr("__name__") = "raybound._core";
     m.doc() = "The raw engine of raybound; the public interface is the package raybound.";
     register_numbers(m);
+    register_running_errors(m);
+    register_linear_intervals(m);
     register_transforms(m);
     register_shapes(m);
     register_materials(m);
