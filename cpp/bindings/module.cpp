@@ -20,6 +20,7 @@ PYBIND11_MODULE(RAYBOUND_MODULE, m) {
     register_numbers(m);
     register_running_errors(m);
     register_linear_intervals(m);
+    register_elementary_ranges(m);
     register_transforms(m);
     register_shapes(m);
     register_materials(m);

@@ -1,7 +1,7 @@
-// Closed intervals of real numbers, IEEE 1788-2015's set-based ones: the operations of arithmetic are tight to the bit.
+// Closed intervals of real numbers with IEEE 1788-2015's set-based arithmetic, tight to the bit: sums, products,
+// quotients, squares, roots and fused products. Powers and elementary functions: interval_functions.h.
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 #include <stdexcept>
 #include <string>
@@ -14,195 +14,210 @@
 
 namespace raybound {
 
-// The reals x with inf <= x <= sup: infinite ends are not members. Empty is [+inf, -inf].
-// With Arithmetic::float32 the ends also bound every float32 execution (arithmetic.h): as rounding to nearest is
-// monotone, it is enough that the ends rounded to float32 lie inside.
+// The reals x with inf <= x <= sup; infinite ends are no members. The empty interval is [+inf, -inf].
+//
+// Invariant: kept as the pair (-inf, sup), so that both ends round up and a sum is one operation on two lanes; either
+// -inf > -infinity and sup > -infinity, and -inf + sup >= 0, or both are -infinity (empty); no NaN.
+//
+// With Arithmetic::float32 the ends also bound every float32 execution (arithmetic.h): rounding to nearest is monotone,
+// so it is enough that the ends rounded to float32 lie inside. An execution may reach infinity where an end is infinite.
 template <std::floating_point T, Arithmetic A = Arithmetic::real, class Rounding = DirectedRounding>
 class Interval {
   public:
     using Value = T;
+    using Ends = Lanes<T, 2>;
     static constexpr Arithmetic arithmetic = A;
-    static constexpr bool also_float32 = A == Arithmetic::float32 && !std::is_same_v<T, float>;
-    static constexpr T largest_finite = std::numeric_limits<T>::max();
 
-    constexpr Interval() : inf_(0), sup_(0) {}
-    constexpr Interval(T inf, T sup) : inf_(inf), sup_(sup) {}
+    Interval() : ends_{} {}
+    Interval(T inf, T sup) : ends_{-inf, sup} {}
 
-    // The tightest interval that holds x, and x rounded to float32 where executions in it count. Infinity becomes the
-    // interval of numbers too large, NaN the entire line.
+    // The least interval that holds x, and x rounded to float32 where that counts. Of infinity it is that of numbers
+    // larger than all finite ones, of NaN the entire line.
     template <class S>
         requires std::is_arithmetic_v<S>
-    constexpr Interval(S x) : inf_(static_cast<T>(x)), sup_(inf_) {
-        if constexpr (std::is_same_v<T, float> && !std::is_same_v<S, float>) {
-            const auto wide = static_cast<double>(x);
-            if (double(inf_) > wide) inf_ = next_float_down(inf_);
-            if (double(sup_) < wide) sup_ = next_float_up(sup_);
-        }
-        if (!(inf_ > -infinity<T> && sup_ < infinity<T>)) {
-            inf_ = inf_ == infinity<T> ? largest_finite : inf_ > -infinity<T> ? inf_ : -infinity<T>;
-            sup_ = sup_ == -infinity<T> ? -largest_finite : sup_ < infinity<T> ? sup_ : infinity<T>;
-        }
-        if constexpr (also_float32) *this = rounded(inf_, sup_);
+    Interval(S x) : ends_{-static_cast<T>(x), static_cast<T>(x)} {
+        if constexpr (!std::is_same_v<S, T>) *this = outward(static_cast<double>(x), static_cast<double>(x));
+        if (!(ends_[1] - ends_[1] == 0)) *this = of_special(ends_[1]);
+        *this = with_float32(ends_);
     }
 
-    // For values from outside. Throws std::invalid_argument if an end is NaN, if they are reversed, or if no real
-    // number lies between them.
+    // For values from outside. Throws std::invalid_argument if an end is NaN, if they are reversed, or if no real number
+    // lies between them.
     static Interval checked(T inf, T sup) {
         if (!(inf <= sup && inf < infinity<T> && sup > -infinity<T>))
-            throw std::invalid_argument("Interval: inf must be <= sup and both numbers, got inf = " +
+            throw std::invalid_argument("Interval: inf must be <= sup with a real number between them, got inf = " +
                                         std::to_string(inf) + ", sup = " + std::to_string(sup));
         return {inf, sup};
     }
-    static constexpr Interval empty() { return {infinity<T>, -infinity<T>}; }
-    static constexpr Interval entire() { return {-infinity<T>, infinity<T>}; }
-
-    // The result of an operation with these ends, already rounded outward.
-    static constexpr Interval rounded(T inf, T sup) {
-        if constexpr (also_float32)
-            return {std::min(inf, T(static_cast<float>(inf))), std::max(sup, T(static_cast<float>(sup)))};
-        return {inf, sup};
+    static Interval empty() { return {infinity<T>, -infinity<T>}; }
+    static Interval entire() { return {-infinity<T>, infinity<T>}; }
+    // The least interval around [inf, sup], which may be empty.
+    static Interval outward(double inf, double sup) {
+        if constexpr (std::is_same_v<T, double>) return {inf, sup};
+        const auto ends = rounding::float_above(Lanes<double, 2>{-inf, sup});
+        return {-ends[0], ends[1]};
     }
 
-    constexpr T inf() const { return inf_; }
-    constexpr T sup() const { return sup_; }
-    constexpr bool is_empty() const { return !(inf_ <= sup_); }
-    constexpr bool is_entire() const { return inf_ == -infinity<T> && sup_ == infinity<T>; }
-    constexpr bool contains(T x) const { return inf_ <= x && x <= sup_ && x - x == 0; }
-    constexpr bool contains_zero() const { return inf_ <= 0 && sup_ >= 0; }
+    T inf() const { return 0 - ends_[0]; }  // never -0
+    T sup() const { return ends_[1]; }
+    bool is_empty() const { return ends_[1] == -infinity<T>; }
+    bool is_entire() const { return ends_[0] == infinity<T> && ends_[1] == infinity<T>; }
+    bool contains(T x) const { return -ends_[0] <= x && x <= ends_[1] && x - x == 0; }
+    bool contains_zero() const { return ends_[0] >= 0 && ends_[1] >= 0; }
 
-    // NaN of the empty interval, as IEEE 1788 has it. mid is finite and rounded to nearest, rad and wid are rounded up.
-    constexpr T mid() const {
+    // All NaN for the empty interval. mid is finite and rounded to nearest, rad and wid are rounded up.
+    T mid() const {
+        const T low = inf(), high = sup();
         if (is_empty()) return std::numeric_limits<T>::quiet_NaN();
-        if (inf_ == -sup_) return 0;
-        if (inf_ == -infinity<T>) return -largest_finite;
-        if (sup_ == infinity<T>) return largest_finite;
-        const T sum = inf_ + sup_;
-        return sum - sum == 0 ? sum / 2 : inf_ / 2 + sup_ / 2;
+        if (low == -high) return 0;
+        if (low == -infinity<T>) return -std::numeric_limits<T>::max();
+        if (high == infinity<T>) return std::numeric_limits<T>::max();
+        const T sum = low + high;
+        return sum - sum == 0 ? sum / 2 : low / 2 + high / 2;
     }
-    T rad() const {
-        const T m = mid();
-        return is_empty() ? m : std::max(Rounding::subtract_up(m, inf_), Rounding::subtract_up(sup_, m));
+    T rad() const { return maximum(Rounding::subtract_up(mid(), inf()), Rounding::subtract_up(sup(), mid())); }
+    T wid() const { return is_empty() ? std::numeric_limits<T>::quiet_NaN() : Rounding::add_up(ends_[1], ends_[0]); }
+    T mag() const {
+        return is_empty() ? std::numeric_limits<T>::quiet_NaN() : maximum(std::abs(ends_[0]), std::abs(ends_[1]));
     }
-    T wid() const { return is_empty() ? std::numeric_limits<T>::quiet_NaN() : Rounding::subtract_up(sup_, inf_); }
-    constexpr T mag() const {
-        return is_empty() ? std::numeric_limits<T>::quiet_NaN() : std::max(std::abs(inf_), std::abs(sup_));
-    }
-    constexpr T mig() const {
+    T mig() const {
         if (is_empty()) return std::numeric_limits<T>::quiet_NaN();
-        return contains_zero() ? T(0) : std::min(std::abs(inf_), std::abs(sup_));
+        return maximum(maximum(-ends_[0], -ends_[1]), T(0));
     }
 
-    friend bool operator==(const Interval& a, const Interval& b) {
-        return (a.inf_ == b.inf_ && a.sup_ == b.sup_) || (a.is_empty() && b.is_empty());
-    }
+    // The same set.
+    bool is_same(const Interval& other) const { return lanes::all(ends_ == other.ends_); }
 
-    friend Interval operator-(const Interval& a) { return {-a.sup_, -a.inf_}; }
-    friend Interval operator+(const Interval& a, const Interval& b) {
-        if (a.is_empty() || b.is_empty()) return empty();
-        return rounded(Rounding::add_down(a.inf_, b.inf_), Rounding::add_up(a.sup_, b.sup_));
-    }
-    friend Interval operator-(const Interval& a, const Interval& b) {
-        if (a.is_empty() || b.is_empty()) return empty();
-        return rounded(Rounding::subtract_down(a.inf_, b.sup_), Rounding::subtract_up(a.sup_, b.inf_));
-    }
+    friend Interval operator-(const Interval& x) { return Interval(swapped(x.ends_)); }
+    friend Interval operator+(const Interval& a, const Interval& b) { return sum(a.ends_, b.ends_); }
+    friend Interval operator-(const Interval& a, const Interval& b) { return sum(a.ends_, swapped(b.ends_)); }
     friend Interval operator*(const Interval& a, const Interval& b) {
-        if (a.is_empty() || b.is_empty()) return empty();
-        return rounded(std::min(std::min(product_down(a.inf_, b.inf_), product_down(a.inf_, b.sup_)),
-                                std::min(product_down(a.sup_, b.inf_), product_down(a.sup_, b.sup_))),
-                       std::max(std::max(product_up(a.inf_, b.inf_), product_up(a.inf_, b.sup_)),
-                                std::max(product_up(a.sup_, b.inf_), product_up(a.sup_, b.sup_))));
+        return of_products(a, b, [](Ends x, Ends y) { return Rounding::multiply_up(x, y); });
     }
-    // A divisor that holds 0 leaves it out, so that 1 / [0, 1] is [1, inf] and x / [0, 0] is empty; in float32, where
-    // executions divide by 0 of either sign, the result is the entire line.
+    friend Interval fma(const Interval& a, const Interval& b, const Interval& c) {
+        if (c.is_empty()) return empty();
+        return of_products(a, b, [&](Ends x, Ends y) { return Rounding::fma_up(x, y, c.ends_); });
+    }
+    // A divisor's 0 is left out: 1 / [0, 1] is [1, inf], 1 / [0, 0] is empty. In float32, where executions divide by
+    // zeros of either sign, the result is the entire line.
     friend Interval operator/(const Interval& a, const Interval& b) {
         if (a.is_empty() || b.is_empty()) return empty();
-        if (b.inf_ > 0) return divide_by_positive(a, b);
-        if (b.sup_ < 0) return divide_by_positive(-a, -b);
-        if (A == Arithmetic::float32) return entire();
-        if (b.inf_ == 0 && b.sup_ == 0) return empty();
-        if (a.inf_ == 0 && a.sup_ == 0) return {T(0), T(0)};
-        if (b.inf_ == 0) return divide_by_zero_to(a, b.sup_);
-        if (b.sup_ == 0) return divide_by_zero_to(-a, -b.inf_);
-        return entire();
+        if (b.ends_[0] < 0) return quotient(a.ends_, b);
+        if (b.ends_[1] < 0) return quotient(swapped(a.ends_), -b);
+        return quotient_at_zero(a, b);
     }
 
-    // Of every x of a and y of b: x < y. Nothing is known of no values.
+    // Of every x in a and every y in b: x < y. Of no values, nothing is known.
     friend Verdict operator<(const Interval& a, const Interval& b) {
         if (a.is_empty() || b.is_empty()) return Verdict::unknown;
-        return a.sup_ < b.inf_ ? Verdict::yes : a.inf_ >= b.sup_ ? Verdict::no : Verdict::unknown;
+        return a.sup() < b.inf() ? Verdict::yes : a.inf() >= b.sup() ? Verdict::no : Verdict::unknown;
     }
     friend Verdict operator<=(const Interval& a, const Interval& b) {
         if (a.is_empty() || b.is_empty()) return Verdict::unknown;
-        return a.sup_ <= b.inf_ ? Verdict::yes : a.inf_ > b.sup_ ? Verdict::no : Verdict::unknown;
+        return a.sup() <= b.inf() ? Verdict::yes : a.inf() > b.sup() ? Verdict::no : Verdict::unknown;
     }
     friend Verdict operator>(const Interval& a, const Interval& b) { return b < a; }
     friend Verdict operator>=(const Interval& a, const Interval& b) { return b <= a; }
 
-    friend Interval hull(const Interval& a, const Interval& b) {
-        return {std::min(a.inf_, b.inf_), std::max(a.sup_, b.sup_)};
-    }
+    friend Interval hull(const Interval& a, const Interval& b) { return Interval(lanes::greater(a.ends_, b.ends_)); }
     friend Interval intersection(const Interval& a, const Interval& b) {
-        const Interval both{std::max(a.inf_, b.inf_), std::min(a.sup_, b.sup_)};
-        return both.is_empty() ? empty() : both;
+        const Ends both = a.ends_ < b.ends_ ? a.ends_ : b.ends_;
+        return -both[0] <= both[1] ? Interval(both) : empty();
     }
     friend Interval select(Verdict which, const Interval& yes, const Interval& no) {
         return which == Verdict::unknown ? hull(yes, no) : which == Verdict::yes ? yes : no;
     }
     friend Interval minimum(const Interval& a, const Interval& b) {
         if (a.is_empty() || b.is_empty()) return empty();
-        return {std::min(a.inf_, b.inf_), std::min(a.sup_, b.sup_)};
+        return {minimum(a.inf(), b.inf()), minimum(a.sup(), b.sup())};
     }
     friend Interval maximum(const Interval& a, const Interval& b) {
         if (a.is_empty() || b.is_empty()) return empty();
-        return {std::max(a.inf_, b.inf_), std::max(a.sup_, b.sup_)};
+        return {maximum(a.inf(), b.inf()), maximum(a.sup(), b.sup())};
     }
-    friend Interval abs(const Interval& x) { return x.is_empty() ? empty() : Interval{x.mig(), x.mag()}; }
+    friend Interval abs(const Interval& x) { return x.is_empty() ? empty() : Interval(x.mig(), x.mag()); }
+
     friend Interval square(const Interval& x) {
         if (x.is_empty()) return empty();
         const T least = x.mig(), most = x.mag();
-        return rounded(Rounding::multiply_down(least, least), Rounding::multiply_up(most, most));
+        return with_float32(Rounding::multiply_up(Ends{-least, most}, Ends{least, most}));
     }
     // Of the part of x that is not negative.
     friend Interval sqrt(const Interval& x) {
-        if (!(x.sup_ >= 0)) return empty();
-        return rounded(Rounding::sqrt_down(std::max(x.inf_, T(0))), Rounding::sqrt_up(x.sup_));
+        if (!(x.sup() >= 0)) return empty();
+        return with_float32(Ends{-Rounding::sqrt_down(maximum(x.inf(), T(0))), Rounding::sqrt_up(x.sup())});
     }
     friend Interval reciprocal(const Interval& x) { return Interval(T(1)) / x; }
-    // 1 / sqrt(x) of the positive part of x, at most 2 ulp wider per side than the tightest.
+    // Of the positive part of x: at most 2 ulp wider per side than the tightest, as it rounds twice.
     friend Interval rsqrt(const Interval& x) { return reciprocal(sqrt(x)); }
-    friend Interval fma(const Interval& a, const Interval& b, const Interval& c) {
-        if (a.is_empty() || b.is_empty() || c.is_empty()) return empty();
-        const auto down = [&](T x, T y) { return x == 0 || y == 0 ? c.inf_ : Rounding::fma_down(x, y, c.inf_); };
-        const auto up = [&](T x, T y) { return x == 0 || y == 0 ? c.sup_ : Rounding::fma_up(x, y, c.sup_); };
-        return rounded(corner_hull(a, b, down).inf_, corner_hull(a, b, up).sup_);
-    }
 
   private:
-    // 0 times an infinite end is 0: the end is no member.
-    static T product_down(T x, T y) { return x == 0 || y == 0 ? T(0) : Rounding::multiply_down(x, y); }
-    static T product_up(T x, T y) { return x == 0 || y == 0 ? T(0) : Rounding::multiply_up(x, y); }
+    explicit Interval(Ends ends) : ends_(ends) {}
 
-    template <class F>
-    static Interval corner_hull(const Interval& a, const Interval& b, F f) {
-        const T v[] = {f(a.inf_, b.inf_), f(a.inf_, b.sup_), f(a.sup_, b.inf_), f(a.sup_, b.sup_)};
-        T low = infinity<T>, high = -infinity<T>;
-        for (T x : v) {
-            if (x != x) return entire();  // infinities of both signs meet
-            low = std::min(low, x), high = std::max(high, x);
+    static Ends swapped(Ends x) { return Ends{x[1], x[0]}; }
+
+    static Interval with_float32(Ends ends) {
+        if constexpr (A == Arithmetic::float32 && !std::is_same_v<T, float>) {
+            using Narrow = Lanes<float, 2>;
+            return Interval(lanes::greater(lanes::convert<Ends>(lanes::convert<Narrow>(ends)), ends));
         }
-        return {low, high};
+        return Interval(ends);
     }
-    static Interval divide_by_positive(const Interval& a, const Interval& b) {
-        return rounded(Rounding::divide_down(a.inf_, a.inf_ >= 0 ? b.sup_ : b.inf_),
-                       Rounding::divide_up(a.sup_, a.sup_ >= 0 ? b.inf_ : b.sup_));
+    static Interval of_special(T x) {
+        constexpr T largest = std::numeric_limits<T>::max();
+        return {x > 0 ? largest : -infinity<T>, x < 0 ? -largest : infinity<T>};
     }
-    static Interval divide_by_zero_to(const Interval& a, T sup) {
-        if (a.inf_ >= 0) return rounded(Rounding::divide_down(a.inf_, sup), infinity<T>);
-        if (a.sup_ <= 0) return rounded(-infinity<T>, Rounding::divide_up(a.sup_, sup));
+
+    // An empty operand makes -infinity in a lane, or NaN where it meets +infinity; a real sum makes neither.
+    static Interval sum(Ends a, Ends b) {
+        const Ends lowest = lanes::every<Ends>(-infinity<T>);
+        return with_float32(lanes::greater(Rounding::add_up(a, b), lowest));
+    }
+
+    // Either end of a times that end of b which makes the product least, and greatest: `up` rounds two products at once.
+    // All of them finite means that all ends were.
+    template <class Up>
+    static Interval of_products(const Interval& a, const Interval& b, Up up) {
+        const Ends zero{}, minus_inf = lanes::every<Ends>(a.ends_[0]), sup = lanes::every<Ends>(a.ends_[1]);
+        const Ends ordered = lanes::negated_first(b.ends_), reversed = swapped(ordered);
+        const Ends first = up(swapped(lanes::negated_first(minus_inf)), minus_inf <= zero ? ordered : reversed);
+        const Ends second = up(lanes::negated_first(sup), sup >= zero ? ordered : reversed);
+        const Ends limit = lanes::every<Ends>(infinity<T>);
+        if (!lanes::all((lanes::magnitude(first) < limit) & (lanes::magnitude(second) < limit))) [[unlikely]]
+            return of_special_products(a, b, up);
+        return with_float32(lanes::greater(first, second));
+    }
+    // 0 times an infinite end is 0: the end is no member.
+    template <class Up>
+    [[gnu::noinline]] static Interval of_special_products(const Interval& a, const Interval& b, Up up) {
+        if (a.is_empty() || b.is_empty()) return empty();
+        Ends most = lanes::every<Ends>(-infinity<T>);
+        for (T x : {a.inf(), a.sup()})
+            for (T y : {b.inf(), b.sup()}) {
+                const T finite_y = x == 0 ? T(0) : y, finite_x = y == 0 ? T(0) : x;
+                const Ends ends = up(Ends{-finite_x, finite_x}, lanes::every<Ends>(finite_y));
+                for (int i = 0; i < 2; ++i) most[i] = ends[i] <= most[i] ? most[i] : ends[i] == ends[i] ? ends[i] : infinity<T>;
+            }
+        return with_float32(most);
+    }
+
+    // a / b for b > 0: the ends of a, each by the end of b that keeps it outside.
+    static Interval quotient(Ends a, const Interval& b) {
+        const Ends divisors = a >= Ends{} ? lanes::every<Ends>(b.inf()) : lanes::every<Ends>(b.sup());
+        return with_float32(Rounding::divide_up(a, divisors));
+    }
+    static Interval quotient_at_zero(const Interval& a, const Interval& b) {
+        if (A == Arithmetic::float32) return entire();
+        if (b.ends_[0] > 0 && b.ends_[1] > 0) return lanes::all(a.ends_ == Ends{}) ? a : entire();
+        if (b.ends_[0] > 0) return quotient_at_zero(-a, -b);
+        if (b.ends_[1] == 0) return empty();
+        if (lanes::all(a.ends_ == Ends{})) return a;
+        if (a.ends_[0] <= 0) return {Rounding::divide_down(a.inf(), b.sup()), infinity<T>};
+        if (a.ends_[1] <= 0) return {-infinity<T>, Rounding::divide_up(a.sup(), b.sup())};
         return entire();
     }
 
-    T inf_, sup_;
+    Ends ends_;
 };
 
 template <std::floating_point T, Arithmetic A, class Rounding>
