@@ -10,6 +10,7 @@
 // entire: error infinite, `is_defined` false. It absorbs: what is computed from it is entire too.
 #pragma once
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -46,7 +47,7 @@ class RunningError {
     template <class X>
         requires std::is_arithmetic_v<X>
     RunningError(X x) : RunningError(static_cast<T>(x), Enclosure(x)) {
-        follow("construction", 0, x);
+        follow("construction", 0, x, Enclosure(x));
     }
     // An exact number within `error` of the value. Throws std::invalid_argument unless error >= 0.
     RunningError(T value, T error)
@@ -62,7 +63,7 @@ class RunningError {
         requires(!std::same_as<T, U>)
     explicit RunningError(const RunningError<U, OtherShadow>& x)
         : RunningError(static_cast<T>(x.value()), hull(Enclosure(x.lower()), Enclosure(x.upper()))) {
-        if constexpr (Shadow::checks && OtherShadow::checks) follow("conversion", 0, x.shadow().reference.value);
+        if constexpr (Shadow::checks && OtherShadow::checks) follow("conversion", 0, x.shadow().reference.value, enclosure_);
     }
 
     explicit operator T() const { return value_; }
@@ -92,17 +93,20 @@ class RunningError {
     template <class Operation, class... Operands>
     static RunningError apply(const char* name, int slack, bool defined, Operation operation, const Operands&... x) {
         const bool whole = defined && (x.is_defined() && ...);
-        RunningError result(operation(x.value_...), whole ? operation(x.enclosure_...) : Enclosure::entire());
-        if constexpr (Shadow::checks) result.follow(name, slack, operation(x.shadow_.reference...).value, x...);
+        const Enclosure enclosure = whole ? operation(x.enclosure_...) : Enclosure::entire();
+        RunningError result(operation(x.value_...), enclosure);
+        if constexpr (Shadow::checks)
+            result.follow(name, slack, operation(x.shadow_.reference...).value, enclosure, x...);
         return result;
     }
 
-    // The shadow of a result that was computed otherwise. Throws std::logic_error if it is not in the enclosure.
+    // The shadow of a result that was computed otherwise. It is checked against the enclosure as the operation made it,
+    // before the value was taken in, which might hide a wrong one. Throws std::logic_error if it is outside.
     template <class S, class... Operands>
-    void follow(const char* name, int slack, S exact, const Operands&... x) {
+    void follow(const char* name, int slack, S exact, const Enclosure& enclosure, const Operands&... x) {
         if constexpr (Shadow::checks) {
             shadow_.reference.value = exact;
-            check(name, slack, x...);
+            if (is_defined()) check(name, slack, enclosure, x...);
         }
     }
 
@@ -147,24 +151,25 @@ class RunningError {
             enclosure_ = hull(enclosure_, Enclosure(value_, value_));
     }
 
+    // Is the shadow in the enclosure, but for `slack` units in its last place? From there on it is moved inside, so that
+    // the next operation may count on it.
     template <class... Operands>
-    void check(const char* name, int slack, const Operands&... x) {
-        if constexpr (Shadow::checks) {
-            auto& exact = shadow_.reference.value;
-            using S = std::remove_reference_t<decltype(exact)>;
-            const S low = lower(), high = upper(), margin = slack * std::numeric_limits<S>::epsilon() * std::abs(exact);
-            if (!is_defined()) return;
-            if (!((exact >= low || exact + margin >= low) && (exact <= high || exact - margin <= high)))
-                throw std::logic_error("RunningError: " + account(name, x...));
-            exact = std::min(std::max(exact, low), high);
-        }
+    void check(const char* name, int slack, const Enclosure& enclosure, const Operands&... x) {
+        auto& exact = shadow_.reference.value;
+        using S = std::remove_reference_t<decltype(exact)>;
+        const S low = enclosure.inf(), high = enclosure.sup();
+        const S margin = slack * std::numeric_limits<S>::epsilon() * std::abs(exact);
+        if (!((exact >= low || exact + margin >= low) && (exact <= high || exact - margin <= high)))
+            throw std::logic_error("RunningError: " + account(name, enclosure, x...));
+        exact = std::min(std::max(exact, low), high);
     }
 
     template <class... Operands>
-    std::string account(const char* name, const Operands&... x) const {
+    std::string account(const char* name, const Enclosure& enclosure, const Operands&... x) const {
         std::ostringstream text;
         text.precision(21);
-        text << name << " gave " << shadow_.reference.value << ", outside of [" << lower() << ", " << upper() << "]";
+        text << name << " gave " << shadow_.reference.value << ", outside of [" << enclosure.inf() << ", "
+             << enclosure.sup() << "]";
         ((text << ", of " << x.shadow_.reference.value << " in [" << x.lower() << ", " << x.upper() << "]"), ...);
         return text.str();
     }

@@ -55,14 +55,15 @@ inline int root_slack(long double a, long double b, long double c, long double t
     return slack < 1e9L ? static_cast<int>(slack) : 1000000000;
 }
 
-template <class Number>
-inline void shadow_roots(const Number& a, const Number& b, const Number& c, Number& t0, Number& t1) {
+template <class Number, class Enclosure>
+inline void shadow_roots(const Number& a, const Number& b, const Number& c, Number& t0, const Enclosure& low,
+                         Number& t1, const Enclosure& high) {
     const long double exact_a = a.shadow().reference.value, exact_b = b.shadow().reference.value,
                       exact_c = c.shadow().reference.value;
-    long double low, high;
-    solve_quadratic<long double>(exact_a, exact_b, exact_c, low, high);
-    t0.follow("quadratic", root_slack(exact_a, exact_b, exact_c, low), low, a, b, c);
-    t1.follow("quadratic", root_slack(exact_a, exact_b, exact_c, high), high, a, b, c);
+    long double first, second;
+    solve_quadratic<long double>(exact_a, exact_b, exact_c, first, second);
+    t0.follow("quadratic", root_slack(exact_a, exact_b, exact_c, first), first, low, a, b, c);
+    t1.follow("quadratic", root_slack(exact_a, exact_b, exact_c, second), second, high, a, b, c);
 }
 
 }  // namespace running_errors
@@ -77,12 +78,13 @@ inline RunningVerdict quadratic(const RunningError<T, Shadow>& a, const RunningE
     const auto widened = [](const auto& x) { return running_errors::Bound(x.lower(), x.upper()); };
     const auto rounded = [](const auto& x) { return hull(Enclosure(x.inf()), Enclosure(x.sup())); };
     const auto bounds = running_errors::root_bounds(widened(a), widened(b), widened(c));
-    T low, high;
-    const bool computed = solve_quadratic<double>(a.value(), b.value(), c.value(), low, high);
-    *t0 = RunningError<T, Shadow>(low, rounded(bounds.low));
-    *t1 = RunningError<T, Shadow>(high, rounded(bounds.high));
+    const Enclosure low = rounded(bounds.low), high = rounded(bounds.high);
+    T first, second;
+    const bool computed = solve_quadratic<double>(a.value(), b.value(), c.value(), first, second);
+    *t0 = RunningError<T, Shadow>(first, low);
+    *t1 = RunningError<T, Shadow>(second, high);
     if constexpr (Shadow::checks)
-        if (bounds.real == Verdict::yes) running_errors::shadow_roots(a, b, c, *t0, *t1);
+        if (bounds.real == Verdict::yes) running_errors::shadow_roots(a, b, c, *t0, low, *t1, high);
     return {bounds.real, computed};
 }
 
