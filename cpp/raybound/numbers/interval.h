@@ -20,7 +20,8 @@ namespace raybound {
 // -inf > -infinity and sup > -infinity, and -inf + sup >= 0, or both are -infinity (empty); no NaN.
 //
 // With Arithmetic::float32 the ends also bound every float32 execution (arithmetic.h): rounding to nearest is monotone,
-// so it is enough that the ends rounded to float32 lie inside. An execution may reach infinity where an end is infinite.
+// so it is enough that the ends rounded to float32 lie inside. An execution may reach infinity where an end is
+// infinite.
 template <std::floating_point T, Arithmetic A = Arithmetic::real, class Rounding = DirectedRounding>
 class Interval {
   public:
@@ -41,8 +42,8 @@ class Interval {
         *this = with_float32(ends_);
     }
 
-    // For values from outside. Throws std::invalid_argument if an end is NaN, if they are reversed, or if no real number
-    // lies between them.
+    // For values from outside. Throws std::invalid_argument if an end is NaN, if they are reversed, or if no real
+    // number lies between them.
     static Interval checked(T inf, T sup) {
         if (!(inf <= sup && inf < infinity<T> && sup > -infinity<T>))
             throw std::invalid_argument("Interval: inf must be <= sup with a real number between them, got inf = " +
@@ -51,11 +52,13 @@ class Interval {
     }
     static Interval empty() { return {infinity<T>, -infinity<T>}; }
     static Interval entire() { return {-infinity<T>, infinity<T>}; }
-    // The least interval around [inf, sup], which may be empty.
+    // The result of an operation on the real line that is [inf, sup], perhaps empty.
     static Interval outward(double inf, double sup) {
-        if constexpr (std::is_same_v<T, double>) return {inf, sup};
-        const auto ends = rounding::float_above(Lanes<double, 2>{-inf, sup});
-        return {-ends[0], ends[1]};
+        const Lanes<double, 2> ends{-inf, sup};
+        if constexpr (std::is_same_v<T, float>)
+            return Interval(rounding::float_above(ends));
+        else
+            return with_float32(ends);
     }
 
     T inf() const { return 0 - ends_[0]; }  // never -0
@@ -174,8 +177,8 @@ class Interval {
         return with_float32(lanes::greater(Rounding::add_up(a, b), lowest));
     }
 
-    // Either end of a times that end of b which makes the product least, and greatest: `up` rounds two products at once.
-    // All of them finite means that all ends were.
+    // Either end of a times that end of b which makes the product least, and greatest: `up` rounds two products at
+    // once. All of them finite means that all ends were.
     template <class Up>
     static Interval of_products(const Interval& a, const Interval& b, Up up) {
         const Ends zero{}, minus_inf = lanes::every<Ends>(a.ends_[0]), sup = lanes::every<Ends>(a.ends_[1]);
@@ -196,7 +199,8 @@ class Interval {
             for (T y : {b.inf(), b.sup()}) {
                 const T finite_y = x == 0 ? T(0) : y, finite_x = y == 0 ? T(0) : x;
                 const Ends ends = up(Ends{-finite_x, finite_x}, lanes::every<Ends>(finite_y));
-                for (int i = 0; i < 2; ++i) most[i] = ends[i] <= most[i] ? most[i] : ends[i] == ends[i] ? ends[i] : infinity<T>;
+                for (int i = 0; i < 2; ++i)
+                    most[i] = ends[i] <= most[i] ? most[i] : ends[i] == ends[i] ? ends[i] : infinity<T>;
             }
         return with_float32(most);
     }

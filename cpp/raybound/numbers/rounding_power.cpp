@@ -20,7 +20,7 @@ struct Enclosed {
     std::uint64_t error = 0;  // 0: exact
 };
 
-using Wide128 = unsigned __int128;
+__extension__ typedef unsigned __int128 Wide128;
 
 // Relative errors add, in units of 2^(1-N). Truncation is one more, and their products together less than one more, as
 // long as errors stay below 2^60: x^n has at most 4 n < 2^33.
