@@ -60,12 +60,12 @@ class Number:
 
     def apply(self, name: str, *others: Any, parameter: float = 0) -> "Number":
         operands = [self.rows] + [self.like(o).rows for o in others]
-        return Number(
-            _core.linear_interval_operation(name, operands, parameter, self.variables, self.rule), self.rule
-        )
+        return Number(_core.linear_interval_operation(name, operands, parameter, self.variables, self.rule), self.rule)
 
     def like(self, other: Any) -> "Number":
-        return other if isinstance(other, Number) else constants(np.full(len(self.rows), other), self.variables, self.rule)
+        return (
+            other if isinstance(other, Number) else constants(np.full(len(self.rows), other), self.variables, self.rule)
+        )
 
     def __add__(self, other: Any) -> "Number":
         return self.apply("add", other)
@@ -84,7 +84,11 @@ def assemble(constant: Array, slopes: Array, rule: str, range: Array | None = No
     n = len(constant)
     if range is None:
         range = np.tile([-np.inf, np.inf], (n, 1))
-    return Number(np.concatenate([constant, slopes.reshape(n, -1), range], axis=1).astype(float), rule).apply("negate").apply("negate")
+    return (
+        Number(np.concatenate([constant, slopes.reshape(n, -1), range], axis=1).astype(float), rule)
+        .apply("negate")
+        .apply("negate")
+    )
 
 
 def constants(values: Array, variables: int, rule: str) -> Number:
@@ -249,8 +253,8 @@ def test_points_agree_with_arbitrary_precision(name: str, rule: str) -> None:
 @every_rule
 @every_operation
 def test_smaller_operands_give_smaller_results(op: Operation, rule: str) -> None:
-    """Inclusion of constants and slopes carries over to ranges. The products of the second-order rule fit their
-    squares to their operands (D20) and may lose a little: up to 2 % of the width seen.
+    """Inclusion of constants and slopes carries over to ranges. A chord fits its operands (D21) and may lose a little:
+    5e-5 of the width seen in 30 000 cases.
     """
     n, count = 3000, 4
     rng = np.random.default_rng(6)
@@ -266,8 +270,7 @@ def test_smaller_operands_give_smaller_results(op: Operation, rule: str) -> None
     small = narrow[0].apply(op.name, *narrow[1:], parameter=op.parameter)
     width = large.range[:, 1] - large.range[:, 0]
     scale = 1e-14 * np.abs(large.range).max(axis=1)
-    fitted = rule == "second-order" and op.name in ("multiply", "divide", "fma")
-    slack = scale + (0.05 if fitted else 0) * width
+    slack = scale + (1e-3 if op.kink else 0) * width
     assert (small.range[:, 0] >= large.range[:, 0] - slack).all()
     assert (small.range[:, 1] <= large.range[:, 1] + slack).all()
     assert (small.range[:, 1] - small.range[:, 0] < 0.999 * width).mean() > 0.3
@@ -347,7 +350,10 @@ LINEAR = {
 @pytest.mark.parametrize(
     ("radius", "ratio"),
     # interpolation_bound over the true error, median: seen with hansen, second-order, second-order-slopes
-    [(0.002, {"hansen": 80, "second-order": 40, "second-order-slopes": 60}), (0.01, {"hansen": 100, "second-order": 50, "second-order-slopes": 70})],
+    [
+        (0.002, {"hansen": 80, "second-order": 40, "second-order-slopes": 60}),
+        (0.01, {"hansen": 100, "second-order": 50, "second-order-slopes": 70}),
+    ],
 )
 def test_interpolation_of_a_highlight(rule: str, radius: float, ratio: dict[str, float]) -> None:
     """|f - If| over random cells of rays: below the bound at random points, which is not far above; range encloses."""
@@ -382,14 +388,18 @@ def test_figure_4_22(radius: float) -> None:
         f = assemble(np.array([[k0, k1]]), np.array([[[l0, l1]]]), rule).apply("exp")
         bound[rule] = f.bounds[0][0]
     e = math.exp
-    assert bound["second-order"] == pytest.approx(e(k1) - e(k0) + l1**2 / 2 * e(k1 + l1) + e(k1) * l1 - e(k0) * l0, rel=1e-14)
+    assert bound["second-order"] == pytest.approx(
+        e(k1) - e(k0) + l1**2 / 2 * e(k1 + l1) + e(k1) * l1 - e(k0) * l0, rel=1e-14
+    )
     # The thesis has exp(k0 + l0 dx) for the lower slope's factor. Y reaches down to k0 - l1 dx; and the thesis's line would
     # lie above the least function that it should bound from below.
     assert e(k0) + l0 * e(k0 + l0) > e(k0 + l0)
     assert bound["hansen"] == pytest.approx(e(k1) - e(k0) + l1 * e(k1 + l1) - l0 * e(k0 - l1), rel=1e-14)
     least = e(k1 + l1) - e(k0 + l0)
     assert least < bound["second-order"] < bound["hansen"]
-    assert bound["second-order-slopes"] == pytest.approx(bound["second-order"], rel=1e-14)  # one variable: no mixed terms
+    assert bound["second-order-slopes"] == pytest.approx(
+        bound["second-order"], rel=1e-14
+    )  # one variable: no mixed terms
     assert f.range[0] == pytest.approx([e(k0 - l1), e(k1 + l1)], rel=1e-14)
 
 
@@ -419,7 +429,13 @@ def test_domain_errors_are_entire_and_stay_so(
     assert result.range.tolist() == result.constant.tolist() == [entire]
     assert (result.slopes == 0).all()
     assert result.bounds[1].tolist() == [math.inf]
-    for later in (result * 0.0, result.apply("minimum", 0.0), result.apply("abs"), result.apply("atan"), result - result):
+    for later in (
+        result * 0.0,
+        result.apply("minimum", 0.0),
+        result.apply("abs"),
+        result.apply("atan"),
+        result - result,
+    ):
         assert later.range.tolist() == [entire]
 
 

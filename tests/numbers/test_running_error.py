@@ -29,7 +29,12 @@ def numbers(rng: np.random.Generator, n: int, wide: bool, decades: float = 6) ->
     value = (10 ** rng.uniform(-decades, decades, n) * rng.choice([-1.0, 1.0], n)).astype(kind)
     ulp = np.spacing(np.abs(value))
     relative = rng.random(n).astype(kind) * np.abs(value)
-    sizes = [0 * ulp, rng.integers(0, 2**10, n).astype(kind) * ulp, rng.integers(0, 2**20, n).astype(kind) * ulp, relative]
+    sizes = [
+        0 * ulp,
+        rng.integers(0, 2**10, n).astype(kind) * ulp,
+        rng.integers(0, 2**20, n).astype(kind) * ulp,
+        relative,
+    ]
     error = np.choose(rng.integers(0, 4, n), sizes).astype(kind)
     rows = np.stack([value, value - error, value + error], axis=1).astype(np.float64)
     inside = rows[:, 1] + rng.random(n) * (rows[:, 2] - rows[:, 1])
@@ -199,7 +204,9 @@ def test_values_have_the_bits_of_the_plain_kernel(wide: bool) -> None:
     if not wide:
         x = rng.uniform(-1, 1, n).astype(np.float32)
         for name in ("exp", "acos"):  # our own, not the C library's
-            np.testing.assert_array_equal(operation(name, [point(x)], wide)[:, 0].astype(kind), _core.elementary(name, x))
+            np.testing.assert_array_equal(
+                operation(name, [point(x)], wide)[:, 0].astype(kind), _core.elementary(name, x)
+            )
 
 
 def test_the_shadow_changes_nothing() -> None:

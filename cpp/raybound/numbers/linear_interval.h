@@ -4,12 +4,12 @@
 //
 //     f(x) in F(x) = K + sum_i L_i x_i   and   f(x) in range      for every x in [-1, 1]^N,
 //
-// with intervals K (the constant), L_i (the slopes, per radius of the cell) and `range`, which plain interval arithmetic
-// computes beside F and which holds where F does worse. All ends are rounded outward.
+// with intervals K (the constant), L_i (the slopes, per radius of the cell) and `range`, which plain interval
+// arithmetic computes beside F and which holds where F does worse. All ends are rounded outward.
 //
-// A LinearInterval is bounded or *entire*. Entire is the answer to a domain error (the root of a range that reaches below
-// zero, a divisor that reaches zero) and to overflow, and it absorbs: what is computed from it is entire. So no later
-// operation hides that something was undefined; `is_entire` is the flag, and there is no NaN.
+// A LinearInterval is bounded or *entire*. Entire is the answer to a domain error (the root of a range that reaches
+// below zero, a divisor that reaches zero) and to overflow, and it absorbs: what is computed from it is entire. So no
+// later operation hides that something was undefined; `is_entire` is the flag, and there is no NaN.
 //
 // Derivations: D20 (products), D21 (functions), D22 (the bound of interpolation).
 #pragma once

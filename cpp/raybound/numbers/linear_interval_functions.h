@@ -11,7 +11,8 @@ namespace linear_intervals {
 
 // f(k + d) for k in the constant and d = sum_i L_i x_i, by
 //   hansen        f(k) + s d             s = (f(y) - f(k)) / (y - k), the slope
-//   second_order  f(k) + f'(k) d + c d^2, c = (f(y) - f(k) - f'(k) (y - k)) / (y - k)^2, the curvature; 0 <= d^2 <= reach^2.
+//   second_order  f(k) + f'(k) d + c d^2, c = (f(y) - f(k) - f'(k) (y - k)) / (y - k)^2, the curvature; 0 <= d^2 <=
+//   reach^2.
 // The thesis folds the pure squares and the mixed terms of d^2 apart and so lets it fall below zero; and its folding
 // into slopes (last equation of 4.3.5) prints sum x_i^2 l_i^2 for sum dx_i^2 l_i^2 / 2 in K, and misses the factor 1/2
 // of its own derivation in L.

@@ -50,9 +50,9 @@ class RunningError {
         follow("construction", 0, x, Enclosure(x));
     }
     // An exact number within `error` of the value. Throws std::invalid_argument unless error >= 0.
-    RunningError(T value, T error)
-        : RunningError(value, Enclosure(subtract_down(value, error), add_up(value, error))) {
-        if (!(error >= 0)) throw std::invalid_argument("RunningError: error must be >= 0, got " + std::to_string(error));
+    RunningError(T value, T error) : RunningError(value, Enclosure(subtract_down(value, error), add_up(value, error))) {
+        if (!(error >= 0))
+            throw std::invalid_argument("RunningError: error must be >= 0, got " + std::to_string(error));
     }
     RunningError(T value, const Enclosure& enclosure) : value_(value), enclosure_(enclosure) {
         if constexpr (Shadow::checks) shadow_.reference.value = value;
@@ -63,7 +63,8 @@ class RunningError {
         requires(!std::same_as<T, U>)
     explicit RunningError(const RunningError<U, OtherShadow>& x)
         : RunningError(static_cast<T>(x.value()), hull(Enclosure(x.lower()), Enclosure(x.upper()))) {
-        if constexpr (Shadow::checks && OtherShadow::checks) follow("conversion", 0, x.shadow().reference.value, enclosure_);
+        if constexpr (Shadow::checks && OtherShadow::checks)
+            follow("conversion", 0, x.shadow().reference.value, enclosure_);
     }
 
     explicit operator T() const { return value_; }
@@ -88,8 +89,9 @@ class RunningError {
     }
 
     // An operation that T, intervals and the shadow's numbers all have, applied to the operands' three parts. Where it
-    // is not `defined` on the operands' enclosures the result is flagged. `slack` is the error of the shadow's operation
-    // in its units in the last place, 0 if it is correctly rounded. Throws std::logic_error if the shadow leaves.
+    // is not `defined` on the operands' enclosures the result is flagged. `slack` is the error of the shadow's
+    // operation in its units in the last place, 0 if it is correctly rounded. Throws std::logic_error if the shadow
+    // leaves.
     template <class Operation, class... Operands>
     static RunningError apply(const char* name, int slack, bool defined, Operation operation, const Operands&... x) {
         const bool whole = defined && (x.is_defined() && ...);
@@ -145,14 +147,14 @@ class RunningError {
   private:
     // The value lies in the enclosure, which rounding alone guarantees only where T's operation is correctly rounded.
     void settle() {
-        if (value_ != value_ || enclosure_.is_empty())
+        if (value_ != value_ || enclosure_.is_empty() || lower() == infinity<T> || upper() == -infinity<T>)
             enclosure_ = Enclosure::entire();
         else
             enclosure_ = hull(enclosure_, Enclosure(value_, value_));
     }
 
-    // Is the shadow in the enclosure, but for `slack` units in its last place? From there on it is moved inside, so that
-    // the next operation may count on it.
+    // Is the shadow in the enclosure, but for `slack` units in its last place? From there on it is moved inside, so
+    // that the next operation may count on it.
     template <class... Operands>
     void check(const char* name, int slack, const Enclosure& enclosure, const Operands&... x) {
         auto& exact = shadow_.reference.value;

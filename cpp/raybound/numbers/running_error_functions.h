@@ -23,7 +23,8 @@ inline RunningError<T, S> abs(const RunningError<T, S>& x) {
 }
 template <std::floating_point T, class S>
 inline RunningError<T, S> reciprocal(const RunningError<T, S>& x) {
-    return RunningError<T, S>::apply("reciprocal", 0, !x.enclosure().contains_zero(), [](auto v) { return reciprocal(v); }, x);
+    return RunningError<T, S>::apply(
+        "reciprocal", 0, !x.enclosure().contains_zero(), [](auto v) { return reciprocal(v); }, x);
 }
 template <std::floating_point T, class S>
 inline RunningError<T, S> rsqrt(const RunningError<T, S>& x) {
@@ -82,7 +83,8 @@ inline RunningError<T, S> power(const RunningError<T, S>& x, int n) {
 // The shadow's exponent, up to 800 in size where the result is not 0, has a relative error of 6 units.
 template <std::floating_point T, class S>
 inline RunningError<T, S> ward_lobe(const RunningError<T, S>& cosine, double sigma) {
-    return RunningError<T, S>::apply("ward_lobe", 5000, sigma > 0, [sigma](auto v) { return ward_lobe(v, sigma); }, cosine);
+    return RunningError<T, S>::apply(
+        "ward_lobe", 5000, sigma > 0, [sigma](auto v) { return ward_lobe(v, sigma); }, cosine);
 }
 
 static_assert(Number<RunningError<float>> && Number<RunningError<double>>);

@@ -14,9 +14,9 @@ namespace raybound {
 template <std::floating_point T>
 using HigherPrecision = std::conditional_t<std::same_as<T, float>, double, long double>;
 
-// A number of higher precision, with the operations that all number types share. Those of IEEE 754 are correctly rounded
-// and hence monotone, and every T is an S: so if operands lie in enclosures with ends in T, the result as rounded lies
-// in the enclosure of the results. The others are off by a few units in the last place of S.
+// A number of higher precision, with the operations that all number types share. Those of IEEE 754 are correctly
+// rounded and hence monotone, and every T is an S: so if operands lie in enclosures with ends in T, the result as
+// rounded lies in the enclosure of the results. The others are off by a few units in the last place of S.
 template <std::floating_point S>
 struct Reference {
     S value;

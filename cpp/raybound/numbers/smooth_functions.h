@@ -9,6 +9,7 @@
 // within them makes them unbounded, not wrong.
 #pragma once
 
+#include <algorithm>
 #include <climits>
 
 #include "raybound/numbers/interval_functions.h"
@@ -151,8 +152,10 @@ struct Power : ByMeanValue<Power> {
   private:
     // n - order + 1, the factor that the order-th derivative brings: 0 for the derivatives that vanish.
     Bound falling(int order) const { return Bound(double(exponent) - order + 1); }
+    // x^(n - order); whatever where `falling` is 0.
     Bound lowered(const Bound& x, int order) const {
-        return exponent >= 0 && exponent < order ? Bound(1.0) : power(x, exponent < INT_MIN + order ? INT_MIN : exponent - order);
+        if (exponent < INT_MIN + order) return power(x, exponent) / power(x, order);
+        return power(x, exponent >= 0 ? std::max(exponent - order, 0) : exponent - order);
     }
 };
 
