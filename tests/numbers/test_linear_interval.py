@@ -331,9 +331,9 @@ def plastic(x: list[Any], f: dict[str, Callable[..., Any]]) -> Any:
     a, b, c = dot(way, way), dot(origin, way), dot(origin, origin) - 1.0
     t = c / (f["sqrt"](b * b - a * c) - b)
     normal = [o + w * t for o, w in zip(origin, way)]
-    light = unit([one * l - p for l, p in zip((0.5, 0.1, 4.0), normal)])
+    light = unit([one * c - p for c, p in zip((0.5, 0.1, 4.0), normal)])
     eye = unit(way)
-    half = unit([l - e for l, e in zip(light, eye)])
+    half = unit([to_light - to_hit for to_light, to_hit in zip(light, eye)])
     return dot(normal, light) * 0.6 + f["ward_lobe"](dot(normal, half)) * 0.4
 
 
@@ -391,8 +391,8 @@ def test_figure_4_22(radius: float) -> None:
     assert bound["second-order"] == pytest.approx(
         e(k1) - e(k0) + l1**2 / 2 * e(k1 + l1) + e(k1) * l1 - e(k0) * l0, rel=1e-14
     )
-    # The thesis has exp(k0 + l0 dx) for the lower slope's factor. Y reaches down to k0 - l1 dx; and the thesis's line would
-    # lie above the least function that it should bound from below.
+    # The thesis has exp(k0 + l0 dx) for the lower slope's factor. Y reaches down to k0 - l1 dx; and the thesis's line
+    # would lie above the least function that it should bound from below.
     assert e(k0) + l0 * e(k0 + l0) > e(k0 + l0)
     assert bound["hansen"] == pytest.approx(e(k1) - e(k0) + l1 * e(k1 + l1) - l0 * e(k0 - l1), rel=1e-14)
     least = e(k1 + l1) - e(k0 + l0)
@@ -450,7 +450,7 @@ def test_ranges_that_touch_the_domain_are_kept(rule: str) -> None:
 
 def test_bad_input() -> None:
     row = np.zeros((1, 6))
-    with pytest.raises(ValueError, match="rule must be .* got 'third-order'"):
+    with pytest.raises(ValueError, match=r"rule must be .* got 'third-order'"):
         _core.linear_interval_operation("exp", [row], 0, 1, "third-order")
     with pytest.raises(ValueError, match="variables must be 1, 2 or 4, got 3"):
         _core.linear_interval_bounds(row, 3, "hansen")
