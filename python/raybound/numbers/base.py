@@ -182,7 +182,11 @@ def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
 
 def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDArray[Any]:
     """A number or an array of numbers as float32 (if it was) or float64. TypeError; ValueError for NaN (and infinity)."""
-    if isinstance(value, Number) or type(value).__array_ufunc__ is None if hasattr(type(value), "__array_ufunc__") else False:
+    if (
+        isinstance(value, Number) or type(value).__array_ufunc__ is None
+        if hasattr(type(value), "__array_ufunc__")
+        else False
+    ):
         raise _NotOursError(f"{who}: {name} must be a number or an array of numbers, got a {type(value).__name__}")
     try:
         given = _validate.numeric(who, name, value, "a number or an array of numbers")
@@ -191,7 +195,9 @@ def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDA
     array = np.asarray(given, np.float32 if given.dtype in (np.float16, np.float32) else np.float64)
     good = np.isfinite(array) if finite else ~np.isnan(array)
     if not good.all():
-        raise ValueError(f"{who}: {name} must be {'finite' if finite else 'a number'}, got {_validate._culprit(array, good)}")
+        raise ValueError(
+            f"{who}: {name} must be {'finite' if finite else 'a number'}, got {_validate._culprit(array, good)}"
+        )
     return array
 
 

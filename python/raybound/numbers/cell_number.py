@@ -37,7 +37,9 @@ def make_cell(
     middle = np.ascontiguousarray(middle)
     if enlarge == "not":
         return middle, np.ascontiguousarray(half)
-    wider: npt.NDArray[np.float64] = _core.cell_radii(middle, np.ascontiguousarray(half), enlarge == "derived").reshape(middle.shape)
+    wider: npt.NDArray[np.float64] = _core.cell_radii(middle, np.ascontiguousarray(half), enlarge == "derived").reshape(
+        middle.shape
+    )
     middle.flags.writeable = wider.flags.writeable = False
     return middle, wider
 

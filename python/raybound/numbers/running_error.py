@@ -40,7 +40,9 @@ class RunningError(Number):
                 f"RunningError: value and error must broadcast, got shapes {values.shape} and {errors.shape}"
             ) from None
         bounds = errors.astype(dtype)
-        bounds = np.where(bounds < errors, np.nextafter(bounds, dtype.type(np.inf)), bounds)  # never below what was given
+        bounds = np.where(
+            bounds < errors, np.nextafter(bounds, dtype.type(np.inf)), bounds
+        )  # never below what was given
         given = np.stack([values.astype(dtype), bounds, np.zeros_like(bounds)], axis=-1)
         records = apply(KIND[dtype], "with_error", [given])
         records.flags.writeable = False
