@@ -200,6 +200,14 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
     return hit;
 }
 
+template <class T>
+PlainPoint<T> estimate_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray) {
+    const Leaf& leaf = geometry.leaves[crossing.leaf];
+    const Vec3<T> p = ray.origin + ray.direction * T(crossing.t);
+    const Surface<T> surface = leaf_surface(geometry, leaf, crossing.face, p, ray.direction);
+    return {p, unit_normal(geometry, leaf, surface, ray.direction)};
+}
+
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
     if (primitive.is_csg) return false;
     const Leaf& leaf = geometry.leaves[primitive.root];
@@ -215,5 +223,7 @@ template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, c
 template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&);
 template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
 template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
+template PlainPoint<float> estimate_point(const Geometry&, const Crossing<double>&, const Ray<float>&);
+template PlainPoint<double> estimate_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
 
 }  // namespace raybound
