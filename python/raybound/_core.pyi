@@ -33,8 +33,9 @@ class _Traced(TypedDict):
     rays: _Rays
 
 class _Bounces(TypedDict):
+    rays: int
     hits: int
-    bounced_hits: int
+    blocked: int
     seconds: float
 
 class _ClosestHits(TypedDict):
@@ -229,7 +230,7 @@ def trace(
 def closest_hits(snapshot: Snapshot, origins: _Float, directions: _Float, *, threads: int) -> _ClosestHits: ...
 def primary_hits(snapshot: Snapshot, camera: Camera, *, threads: int) -> tuple[int, float]: ...
 def trace_bounces(
-    snapshot: Snapshot, origins: _Double, directions: _Double, *, precision: str, offsets: str
+    snapshot: Snapshot, origins: _Double, directions: _Double, *, precision: str, offsets: str, skips: bool
 ) -> _Bounces: ...
 def explain(snapshot: Snapshot, camera: Camera, x: int, y: int, max_depth: int) -> dict[str, Any]: ...
 def build_info() -> _BuildInfo: ...

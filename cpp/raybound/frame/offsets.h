@@ -18,14 +18,20 @@ inline Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& side, Offsets off
     return p + side * step;
 }
 
-// One bounce of rays on this thread: the closest hits in a scene, the points there, the origins that a policy spawns
-// from them, and the closest hits of the mirrored rays. The epsilon policies compute the plain point in T and no bound.
+// What a policy costs, on this thread: the rays of a picture of mirrors, without its colours. Each ray's closest hit,
+// the point there, the origin that the policy spawns, a shadow ray from it to each light that the surface faces, and,
+// once, the mirrored ray. The epsilon policies compute the plain point in T and no bound. `skips`: rays do not ask what
+// they have left for good, as in the tracer, which knows the side of its origins.
+struct Leaving {
+    Offsets offsets = Offsets::bounded;
+    bool skips = true;
+};
 struct Bounces {
-    std::uint64_t hits = 0, bounced_hits = 0;
+    std::uint64_t rays = 0, hits = 0, blocked = 0;
     double seconds = 0;
 };
 template <class T>
 Bounces trace_bounces(const Snapshot& scene, std::span<const Vec3d> origins, std::span<const Vec3d> directions,
-                      Offsets offsets);
+                      const Leaving& leaving);
 
 }  // namespace raybound
