@@ -139,7 +139,8 @@ def _disk(rng: Rng, p: Doubles, r: float) -> Any:
 
 def _basis(rng: Rng) -> Doubles:
     q: Doubles = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    return q * np.sign(np.linalg.det(q))
+    turned: Doubles = q * np.sign(np.linalg.det(q))
+    return turned
 
 
 def _polygon(rng: Rng, p: Doubles, r: float) -> Any:

@@ -19,7 +19,7 @@ SPLITTER = 2.0**27 + 1
 
 
 def _two_sum(a: Doubles, b: Doubles) -> tuple[Doubles, Doubles]:
-    """a + b as rounded, and its rounding error."""
+    """The rounded a + b, and its rounding error."""
     total = a + b
     part = total - a
     return total, (a - (total - part)) + (b - part)
@@ -33,10 +33,23 @@ def _split(a: Doubles) -> tuple[Doubles, Doubles]:
 
 
 def _two_product(a: Doubles, b: Doubles) -> tuple[Doubles, Doubles]:
-    """a b as rounded, and its rounding error."""
+    """The rounded a b, and its rounding error."""
     product = a * b
     (a1, a2), (b1, b2) = _split(a), _split(b)
     return product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2
+
+
+def _quick_two_sum(a: Doubles, b: Doubles) -> TwoDoubles:
+    """The rounded a + b, and its rounding error, for |a| >= |b|."""
+    total = a + b
+    return _made(total, b - (total - a))
+
+
+def _made(high: Doubles, low: Doubles) -> TwoDoubles:
+    """A pair that is normalised already."""
+    pair = object.__new__(TwoDoubles)
+    pair.high, pair.low = high, low
+    return pair
 
 
 class TwoDoubles:
@@ -44,25 +57,32 @@ class TwoDoubles:
 
     __array_ufunc__ = None  # so that NumPy leaves array + TwoDoubles to this class
 
+    high: Doubles
+    low: Doubles
+
     def __init__(self, high: Any, low: Any = 0.0) -> None:
         self.high, self.low = _two_sum(np.asarray(high, np.float64), np.asarray(low, np.float64))
 
     def __add__(self, other: Number) -> TwoDoubles:
-        b = of(other)
-        (high, low), (below, last) = _two_sum(self.high, b.high), _two_sum(self.low, b.low)
-        high, low = _two_sum(high, low + below)
-        return TwoDoubles(high, low + last)
+        if not isinstance(other, TwoDoubles):
+            high, low = _two_sum(self.high, np.asarray(other))
+            return _quick_two_sum(high, low + self.low)
+        (high, low), (below, last) = _two_sum(self.high, other.high), _two_sum(self.low, other.low)
+        total = _quick_two_sum(high, low + below)
+        return _quick_two_sum(total.high, total.low + last)
 
     def __neg__(self) -> TwoDoubles:
-        return TwoDoubles(-self.high, -self.low)
+        return _made(-self.high, -self.low)
 
     def __sub__(self, other: Number) -> TwoDoubles:
-        return self + -of(other)
+        return self + -other
 
     def __mul__(self, other: Number) -> TwoDoubles:
-        b = of(other)
-        high, low = _two_product(self.high, b.high)
-        return TwoDoubles(high, low + (self.high * b.low + self.low * b.high))
+        if not isinstance(other, TwoDoubles):
+            high, low = _two_product(self.high, np.asarray(other))
+            return _quick_two_sum(high, low + self.low * other)
+        high, low = _two_product(self.high, other.high)
+        return _quick_two_sum(high, low + (self.high * other.low + self.low * other.high))
 
     def __truediv__(self, other: Number) -> TwoDoubles:
         b = of(other)
@@ -70,25 +90,22 @@ class TwoDoubles:
         rest = self - b * first
         second = rest.high / b.high
         rest = rest - b * second
-        return TwoDoubles(first, second) + rest.high / b.high
+        return _quick_two_sum(first, second) + rest.high / b.high
 
     __radd__, __rmul__ = __add__, __mul__
 
     def __rsub__(self, other: Number) -> TwoDoubles:
-        return of(other) - self
-
-    def __getitem__(self, index: Any) -> TwoDoubles:
-        return TwoDoubles(np.asarray(self.high)[index], np.asarray(self.low)[index])
+        return -self + other
 
     def sqrt(self) -> TwoDoubles:
         """The square root; 0 where the value is <= 0."""
         root = np.sqrt(np.maximum(self.high, 0.0))
         rest = self - TwoDoubles(root) * root
-        return TwoDoubles(root, np.where(root > 0, rest.high / np.where(root > 0, 2 * root, 1.0), 0.0))
+        return _quick_two_sum(root, np.where(root > 0, rest.high / np.where(root > 0, 2 * root, 1.0), 0.0))
 
     def value(self) -> Doubles:
         """Rounded to float64."""
-        return np.asarray(self.high + self.low)
+        return self.high
 
 
 def of(x: Number) -> TwoDoubles:
@@ -98,4 +115,4 @@ def of(x: Number) -> TwoDoubles:
 
 def where(condition: npt.NDArray[np.bool_], a: TwoDoubles, b: TwoDoubles) -> TwoDoubles:
     """As np.where."""
-    return TwoDoubles(np.where(condition, a.high, b.high), np.where(condition, a.low, b.low))
+    return _made(np.where(condition, a.high, b.high), np.where(condition, a.low, b.low))

@@ -1,11 +1,13 @@
-"""The surfaces of primitives as users describe them, as polynomials in double-double numbers.
+"""The surfaces of primitives as users describe them, as polynomials.
 
 A face is where a polynomial of degree at most two vanishes, written from the geometric definition and scaled so that
-nothing is divided. Along p + t d it is C + 2 B t + A t^2, negative inside.
+nothing is divided. Along p + t d it is C + 2 B t + A t^2, negative inside. Numbers are `TwoDoubles`, or float64 arrays
+where rounding does not matter.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -35,14 +37,19 @@ def cross(a: Vector, b: Vector) -> list[Any]:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
+def number_like(p: Vector, x: float) -> Any:
+    """The number x, of the kind that p has."""
+    return exact.of(x) if isinstance(p[0], TwoDoubles) else x
+
+
 def plane(n: Vector, w: Vector, d: Vector) -> Form:
-    """n . w <= 0."""
+    """The half-space n . w <= 0."""
     return dot(n, w), dot(n, d) * 0.5, d[0] * 0.0
 
 
 def _sphere(s: Any, p: Vector, d: Vector) -> list[Form]:
     w = minus(p, s.center)
-    return [(dot(w, w) - exact.of(s.radius) * s.radius, dot(w, d), dot(d, d))]
+    return [(dot(w, w) - number_like(p, s.radius) * s.radius, dot(w, d), dot(d, d))]
 
 
 def _box(s: Any, p: Vector, d: Vector) -> list[Form]:
@@ -60,16 +67,16 @@ def _caps(l2: Any, s: Any, sd: Any) -> list[Form]:
 def _cone(c: Any, p: Vector, d: Vector) -> list[Form]:
     """Of a cone, and of a cylinder: the distance from the axis squared, less (radius - slope s)^2, times l^2 or l^4."""
     cylinder = isinstance(c, rb.Cylinder)
-    axis = minus([exact.of(x) for x in (c.top if cylinder else c.apex)], c.base)
+    axis = minus([number_like(p, x) for x in (c.top if cylinder else c.apex)], c.base)
     w = minus(p, c.base)
     l2, s, sd = dot(axis, axis), dot(w, axis), dot(d, axis)
     if cylinder:
-        r2 = exact.of(c.radius) * c.radius
+        r2 = number_like(p, c.radius) * c.radius
         return [
             (l2 * dot(w, w) - s * s - r2 * l2, l2 * dot(w, d) - s * sd, l2 * dot(d, d) - sd * sd),
             *_caps(l2, s, sd),
         ]
-    k = exact.of(c.radius) - c.top_radius
+    k = number_like(p, c.radius) - c.top_radius
     reach = l2 * c.radius - k * s
     side = (
         l2 * (l2 * dot(w, w) - s * s) - reach * reach,
@@ -86,7 +93,7 @@ def _disk(s: Any, p: Vector, d: Vector) -> list[Form]:
 def polygon_normal(vertices: Doubles) -> list[TwoDoubles]:
     """Newell's normal, of twice the area."""
     v = [[exact.of(x) for x in vertex] for vertex in vertices.tolist()]
-    parts = [cross(minus(a, v[0]), minus(b, v[0])) for a, b in zip(v[1:], v[2:], strict=False)]
+    parts = [cross(minus(a, v[0]), minus(b, v[0])) for a, b in itertools.pairwise(v[1:])]
     return [sum((part[i] for part in parts[1:]), parts[0][i]) for i in range(3)]
 
 

@@ -39,8 +39,12 @@ class Leaf:
         """A ray in the primitive's own coordinates."""
         if self.place is None:
             return p, d
-        w = minus(p, self.place.offset)
-        return [dot(row, w) for row in self.place.inverse], [dot(row, d) for row in self.place.inverse]
+        rows: Any = self.place.inverse
+        offset: Any = self.place.offset
+        if not isinstance(p[0], TwoDoubles):
+            rows, offset = [[x.value() for x in row] for row in rows], [x.value() for x in offset]
+        w = minus(p, offset)
+        return [dot(row, w) for row in rows], [dot(row, d) for row in rows]
 
     def world(self, points: Doubles) -> Doubles:
         """Points (n, 3) of the primitive's own coordinates in the world's."""
@@ -62,11 +66,11 @@ class Leaf:
         return plane(cross(minus(b, a), minus(c, a)), minus(local, a), way)
 
     def contains(self, p: Vector) -> Flags:
-        """Whether points are inside of a solid."""
+        """Whether points, of float64 numbers, are inside of a solid."""
         zero = [x * 0.0 for x in p]
         if isinstance(self.shape, rb.Mesh):
-            return winding_number(self.shape, np.stack([x.value() for x in self.local(p, zero)[0]], axis=1)) > 0.5
-        inside: Flags = np.all([form[0].value() <= 0 for form in self.forms(p, zero)], axis=0)
+            return winding_number(self.shape, np.stack(self.local(p, zero)[0], axis=1)) > 0.5
+        inside: Flags = np.all([form[0] <= 0 for form in self.forms(p, zero)], axis=0)
         return inside
 
     def levels(self) -> tuple[float, float]:
@@ -150,14 +154,15 @@ class Oracle:
         return (c, b, a), low, high
 
     def contains(self, points: Doubles) -> Flags:
-        """Whether each point (n, 3) is inside, or on the surface, of a solid."""
-        p = [TwoDoubles(points[:, i]) for i in range(3)]
+        """Whether each point (n, 3) is inside of a solid, decided in float64."""
+        p = list(points.T)
         inside = [leaf.contains(p) for leaf in self.leaves]
 
         def evaluate(member: Any) -> Flags:
             kind, parts = member
             if kind == "leaf":
-                return inside[parts]
+                flags: Flags = inside[parts]
+                return flags
             values = [evaluate(part) for part in parts]
             combined: Flags = (np.any if kind == "union" else np.all)(values, axis=0)
             return combined
@@ -180,7 +185,7 @@ def _chosen(forms: list[Form], face: Faces) -> Form:
 
 
 def nearest_root(form: Form, level: Doubles, t: Doubles) -> TwoDoubles:
-    """The root of C + 2 B t + A t^2 = level nearest to t; where there is none, where the polynomial is nearest to it."""
+    """The root of C + 2 B t + A t^2 = level nearest to t; without a real one, where the polynomial is nearest to it."""
     c, b, a = form[0] - level, form[1], form[2]
     square = b * b - a * c
     q = b + exact.where(b.value() < 0, -square.sqrt(), square.sqrt())

@@ -16,7 +16,6 @@ from .error_rays import Rays, hemisphere, surely_inside
 from .error_tally import Tally
 
 Hits = npt.NDArray[np.void]
-UNIT = {"float32": 2.0**-24, "float64": 2.0**-53}
 FAN = 8  # rays spawned from a hit
 DEPTHS = (0.5, 0.125, 0.03125)  # of a body's size: how far from the surface an interior point is looked for
 NUMBERS = ("t", "t_error", "point", "point_error", "normal", "uv", "next_origin")
@@ -68,7 +67,9 @@ def probe(body: Body, rays: Rays, policy: Policy, scene_size: float, rng: Rng) -
 
 
 def _has_nan(hits: Hits) -> Flags:
-    flags: Flags = np.any([np.isnan(hits[name]).reshape(len(hits), -1).any(axis=1) for name in NUMBERS], axis=0)
+    flags: Flags = np.zeros(len(hits), bool)
+    for numbers in (hits[name] for name in NUMBERS):
+        flags |= np.isnan(numbers).any(axis=tuple(range(1, numbers.ndim)))
     return flags
 
 
@@ -122,7 +123,7 @@ def _send_back(
 ) -> None:
     """Rays back from the far side, to see that origins are not moved too far."""
     cosine = np.sum(directions * hits["normal"], axis=1)
-    near = max(body.reach, 0.0) <= 100 * body.size
+    near = body.reach <= 100 * body.size
     steep = (np.abs(cosine) > np.sin(np.radians(1))) & (hits["t"] <= 100 * body.size) & near
     far = np.where(cosine[:, None] < 0, inner, hits["next_origin"])[steep]
     if not len(far):
@@ -153,30 +154,35 @@ def _leave(tally: Tally, body: Body, policy: Policy, leaving: Leaving) -> None:
 
 
 def _is_false(body: Body, leaving: Leaving, again: Hits) -> Flags:
-    """Whether rays that leave a hollow or compound solid met what they left: they come *out* of the solid first, or
-    meet the same face where, from the true surface, there is no crossing, F(s) = 2 B s + A s^2 for s > 0.
+    """Whether rays that leave a hollow or compound solid met what they left, which they may legally meet elsewhere.
+
+    They did if they come *out* of the solid first although their origin is not outside of the face that they left, or
+    if that face has no such crossing. (A point on an edge may lie in the neighbouring face, and its rays with it.)
     """
     outward = np.sum(leaving.ways * again["normal"], axis=1) > 1e-3
-    (_, b, a), _, _ = body.oracle.along(leaving.hits["face_id"], leaving.hits["point"], leaving.ways)
-    slope, bend = 2 * b.value(), a.value()
-    crossing = np.where(bend * slope < 0, -slope / np.where(bend == 0, 1.0, bend), np.inf)
-    same = (again["face_id"] == leaving.hits["face_id"]) & (again["t"] < crossing / 2)
-    return outward | same
+    form, low, high = body.oracle.along(leaving.hits["face_id"], leaving.outer, leaving.ways)
+    inside = form[0].value() <= high
+    gap = np.minimum(*[np.abs((nearest_root(form, level, again["t"]) - again["t"]).value()) for level in (low, high)])
+    same = again["face_id"] == leaving.hits["face_id"]
+    phantom = same & ~(gap <= again["t_error"] + 1e-4 * again["t"])
+    false: Flags = (outward & inside) | phantom
+    return false
 
 
 def _enter(tally: Tally, body: Body, policy: Policy, leaving: Leaving) -> None:
     """Rays into a solid that certainly pass its interior must come out, and, if it is convex, not before that."""
-    once = slice(None, None, 4)
+    is_mesh = body.kind == "mesh"  # whose interior takes long to ask about
+    once = slice(None, None, 16 if is_mesh else 4)
     hits, origins, ways = leaving.hits[once], leaving.inner[once], -leaving.ways[once]
     depth = np.zeros(len(hits))
-    for share in DEPTHS[1:2] if body.kind == "mesh" else DEPTHS:
+    for share in DEPTHS[1:2] if is_mesh else DEPTHS:
         deeper = surely_inside(body, hits["point"] + ways * (share * body.size))
         depth = np.where((depth == 0) & deeper, share * body.size, depth)
     sure = depth > 0
     answers = policy.meet(body, origins, ways)
     tally.count(enclosed=sure, leaks=sure & ~answers["hit"])
     if body.is_convex:
-        tally.count(spawned=sure, self_hits=sure & answers["hit"] & (answers["t"] < depth / 2))
+        tally.count(entered=sure, inner_hits=sure & answers["hit"] & (answers["t"] < depth / 2))
     found = sure & answers["hit"]
     _look_behind(tally, body, origins[found][:64], ways[found][:64], answers[found][:64])
 

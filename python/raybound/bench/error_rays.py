@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-import raybound as rb
-
 from .error_bodies import Body, Rng
 from .error_exact import Doubles
 from .error_oracle import Flags
@@ -78,7 +76,8 @@ def _meets(body: Body, origins: Doubles, directions: Doubles, targets: Doubles) 
     if body.is_sheet:
         return np.zeros(len(origins), bool)
     t = np.sum((targets - origins) * directions, axis=1, keepdims=True) / np.sum(directions**2, axis=1, keepdims=True)
-    return surely_inside(body, origins + directions * np.maximum(t, 0)) | surely_inside(body, origins)
+    met: Flags = surely_inside(body, origins + directions * np.maximum(t, 0)) | surely_inside(body, origins)
+    return met
 
 
 def surely_inside(body: Body, points: Doubles) -> Flags:
@@ -87,7 +86,7 @@ def surely_inside(body: Body, points: Doubles) -> Flags:
     (The points are within a float64 rounding of where they should be, which is far less.)
     """
     step = MARGIN * float(np.spacing(np.float32(body.reach)))
-    within = np.all((points > body.bounds[0]) & (points < body.bounds[1]), axis=1)
+    within: Flags = np.all((points > body.bounds[0]) & (points < body.bounds[1]), axis=1)
     around = points[within][:, None] + step * PROBES
     within[within] = body.oracle.contains(around.reshape(-1, 3)).reshape(-1, len(PROBES)).all(axis=1)
     return within

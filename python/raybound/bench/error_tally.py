@@ -17,6 +17,8 @@ COUNTS = (
     "nans",  # hits with a NaN in any number
     "spawned",  # rays from hits, on the side to which they leave
     "self_hits",  # of these, meet the surface that they leave
+    "entered",  # rays from hits into a convex solid, through its certain interior
+    "inner_hits",  # of these, meet the surface that they leave
     "enclosed",  # spawned or aimed from within a solid: must come out
     "leaks",  # of these, meet nothing
     "sent_back",  # from the far side, where distance/size <= 100 and the angle > 1 degree
@@ -26,7 +28,7 @@ COUNTS = (
     "bounds",  # bounds that were compared with the true error
     "broken",  # of these, below it
 )
-FAILURES = ("missed", "nans", "self_hits", "leaks", "behind", "broken")
+FAILURES = ("missed", "nans", "self_hits", "inner_hits", "leaks", "behind", "broken")
 SAMPLES = ("offset_ulp", "offset_relative", "point_ratio", "t_ratio")
 
 
