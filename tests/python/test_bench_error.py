@@ -33,7 +33,7 @@ NEVER = ("missed", "nans", "self_hits", "leaks", "behind", "broken")
 
 
 def assert_clean(tallies: error.Tallies, totals: Counter[str]) -> None:
-    """No failure of bounded origins; `inner_hits` are curvature's (see `test_tangential_rounding...`)."""
+    """No failure of bounded origins; but for `inner_hits`, see `test_rays_into_a_far_sphere_leave_it_next`."""
     for (kind, policy), tally in tallies.items():
         wrong = {name: tally.counts[name] for name in NEVER if tally.counts[name]}
         assert not wrong, (kind, policy, wrong)
@@ -44,8 +44,8 @@ def test_bounded_origins_do_nothing_wrong_on_any_hard_case_and_shape() -> None:
     totals: Counter[str] = Counter()
     kinds: dict[str, int] = {}
     moved = []
-    for name, case in rb.scenes.HARD_CASES.items():
-        found = error.measure_scene(name, case.default, 4, BOUNDED)
+    for i, (name, case) in enumerate(rb.scenes.HARD_CASES.items()):
+        found = error.measure_scene(name, case.default, 4, BOUNDED if i % 3 == 0 else BOUNDED[:1])
         assert_clean(found, totals)
         for (kind, policy), tally in found.items():
             kinds[kind] = kinds.get(kind, 0) + tally.counts["spawned"]
@@ -87,6 +87,21 @@ def test_epsilons_do_fail() -> None:
     for precision in ("float32", "float64"):
         near = tally_of("scene-scale", 1.0, "scaled-epsilon", precision)
         assert near["self_hits"] > 0.002 * near["spawned"] > 0
+
+
+ORIGINS = json.loads((ROOT / "tests" / "corpus" / "origins.json").read_text())
+
+
+@pytest.mark.xfail(reason="origins are moved for the tangent plane: sideways rounding and curvature may undo it inside")
+@pytest.mark.parametrize("case", ORIGINS, ids=[case["why"] for case in ORIGINS])
+def test_rays_into_a_far_sphere_leave_it_next(case: dict[str, Any]) -> None:
+    shape = eval(case["shape"], {"__builtins__": {}}, {"Sphere": rb.Sphere})
+    hit = rb.intersect(shape, [case["origin"]], [case["direction"]])[0]
+    way = np.float32(case["way"])
+    assert hit["hit"]
+    assert np.dot(way, hit["normal"]) < -0.1
+    inner = rb.spawn_origin(hit["point"], hit["point_error"], hit["normal"], way)
+    assert np.dot(rb.intersect(shape, [inner], [way])[0]["normal"], way) > 0
 
 
 class Broken(Policy):
@@ -179,19 +194,20 @@ def test_two_doubles_have_a_hundred_bits() -> None:
         return TwoDoubles(high, high * 2.0**-54 * rng.normal(size=n))
 
     a, b = numbers(), numbers()
-    b.high[::4] = -a.high[::4] * (1 + 2.0**-30)  # cancels
+    cancels = rng.random(4000) < 0.25
+    b = TwoDoubles(np.where(cancels, -a.high * (1 + 2.0**-30), b.high), np.where(cancels, a.low, b.low))
     x, y = fractions(a), fractions(b)
-    worst = {}
+    worst, products = {}, [Fraction(float(h)) * p for h, p in zip(b.high, x)]
     for name, found, true, size in (
         ("+", a + b, [p + q for p, q in zip(x, y)], [abs(p) + abs(q) for p, q in zip(x, y)]),
         ("-", a - b, [p - q for p, q in zip(x, y)], [abs(p) + abs(q) for p, q in zip(x, y)]),
         ("*", a * b, [p * q for p, q in zip(x, y)], [p * q for p, q in zip(x, y)]),
         ("/", a / b, [p / q for p, q in zip(x, y)], [p / q for p, q in zip(x, y)]),
         ("sqrt", (a * a).sqrt(), [abs(p) for p in x], [abs(p) for p in x]),
-        ("float", b.high * a + 1.5, [Fraction(float(h)) * p + Fraction(3, 2) for h, p in zip(b.high, x)], None),
+        ("array", b.high * a, products, products),
+        ("number", a - 1.5, [p - Fraction(3, 2) for p in x], [abs(p) + 1 for p in x]),
     ):
-        sizes = [max(abs(t), Fraction(1)) for t in true] if size is None else size
-        worst[name] = max(abs(float((f - t) / s)) for f, t, s in zip(fractions(found), true, sizes))
+        worst[name] = max(abs(float((f - t) / s)) for f, t, s in zip(fractions(found), true, size))
     assert max(worst[name] for name in "+-*") < 2.0**-100, worst  # seen: 2^-104.7
     assert max(worst.values()) < 2.0**-96, worst  # seen: 2^-104.9
 
@@ -273,13 +289,13 @@ def test_bounces_are_the_same_whether_rays_skip_what_they_left() -> None:
 def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     readme, out, plot = tmp_path / "README.md", tmp_path / "error.json", tmp_path / "error.png"
     shutil.copy(ROOT / "README.md", readme)
-    arguments = ["--scenes=cone-apex", "--rays=2", "--repeat=1", "--json", str(out), "--plot", str(plot)]
+    arguments = ["--scenes=huge", "--rays=2", "--repeat=1", "--json", str(out), "--plot", str(plot)]
     assert main(["bench", "error", *arguments, "--markdown", "--readme", str(readme)]) == 0
     printed = capsys.readouterr().out
     result = json.loads(out.read_text())
     assert (result["rays"], result["repeat"], result["left_out"]) == (2, 1, {})
-    case = result["cases"]["cone-apex"]
-    assert case["scales"] == list(rb.scenes.HARD_CASES["cone-apex"].scales)
+    case = result["cases"]["huge"]
+    assert case["scales"] == list(rb.scenes.HARD_CASES["huge"].scales)
     assert set(result["kinds"]) == set(case["kinds"]) == KINDS
     for where in (result["totals"], case["totals"], *result["kinds"].values()):
         for precision in ("float32", "float64"):
@@ -293,7 +309,7 @@ def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert plot.stat().st_size > 10_000
     block = readme.read_text().partition("<!-- bench error -->\n")[2].partition("<!-- /bench error -->")[0]
     assert block.count("| bounded, float32 |") == 2
-    assert "| cone-apex |" in block
+    assert "| huge |" in block
     assert block.splitlines()[0] in printed
     assert math.isfinite(case["totals"]["float32"]["bounded"]["offset_ulp"]["largest"])
 

@@ -26,8 +26,8 @@ def figure(result: dict[str, Any]) -> Figure:
     made = pyplot.figure(figsize=(11, 4.6), layout="constrained")
     pyplot.close(made)
     wrong, moved = made.subplots(1, 2)
-    for precision, found in result["totals"].items():
-        for offsets in found:
+    for offsets in COLOURS:
+        for precision in MARKERS:
             _draw_wrong(wrong, result, precision, offsets)
             _draw_moved(moved, result, precision, offsets)
     _decorate_wrong(wrong)

@@ -12,7 +12,7 @@ from .error_exact import Doubles
 from .error_oracle import Flags
 
 PROBES = np.concatenate([np.zeros((1, 3)), np.eye(3), -np.eye(3)])
-MARGIN = 32  # float32 steps of the largest coordinate
+MARGIN = 4  # float32 steps of the largest coordinate: origins are moved by fewer
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ def shared_edges(scene: Scene) -> list[tuple[Any, Any, Edge, Doubles]]:
     """Pairs of shapes with an edge that they share, and the normal of the flat surface that they form there."""
     found: list[tuple[Any, Any, Edge, Doubles]] = []
     whole = [item.shape for item in scene.objects if item.transform == rb.Transform()]
-    parts = [part for shape in whole for part in (shape.shapes if isinstance(shape, rb.Union) else [shape])]
+    parts = [part for shape in whole for part in _parts(shape)]
     for a, b in itertools.combinations([part for part in parts if isinstance(part, rb.Box)], 2):
         found += [(a, b, edge, normal) for edge, normal in _box_edges(a, b)]
     by_edge: dict[frozenset[tuple[float, ...]], list[Any]] = {}
@@ -38,6 +39,15 @@ def shared_edges(scene: Scene) -> list[tuple[Any, Any, Edge, Doubles]]:
             if np.abs(np.cross(normal, _normal(owners[1]))).max() < 1e-6:
                 found.append((*owners, (first, second), normal))
     return found
+
+
+def _parts(shape: Any) -> Iterator[Any]:
+    """What a union is made of."""
+    if isinstance(shape, rb.Union):
+        for part in shape.shapes:
+            yield from _parts(part)
+    else:
+        yield shape
 
 
 def _normal(polygon: Any) -> Doubles:
