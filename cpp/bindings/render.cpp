@@ -107,7 +107,7 @@ py::dict bounces(const Snapshot& scene, const Doubles& origins, const Doubles& d
                                         : trace_bounces<double>(scene, o, d, leaving);
     }
     return py::dict("rays"_a = counts.rays, "hits"_a = counts.hits, "blocked"_a = counts.blocked,
-                    "seconds"_a = counts.seconds);
+                    "radiance"_a = counts.radiance, "seconds"_a = counts.seconds);
 }
 
 py::tuple tuple_of(const Vec3d& v) { return py::make_tuple(v.x, v.y, v.z); }

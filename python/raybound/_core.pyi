@@ -36,6 +36,7 @@ class _Bounces(TypedDict):
     rays: int
     hits: int
     blocked: int
+    radiance: float
     seconds: float
 
 class _ClosestHits(TypedDict):

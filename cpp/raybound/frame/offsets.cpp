@@ -1,8 +1,8 @@
 #include "raybound/frame/offsets.h"
 
+#include <ctime>
 #include <stdexcept>
 
-#include "raybound/frame/stopwatch.h"
 #include "raybound/trace/shading.h"
 
 namespace raybound {
@@ -34,31 +34,42 @@ Departing<T> depart(const Geometry& geometry, const Nearest<T>& nearest, const W
 }
 
 template <class T>
-void ask_lights(const Snapshot& scene, const Departing<T>& from, Bounces& counts) {
+Vec3<T> light_of(const Snapshot& scene, const Material& material, const Departing<T>& from, const Vec3<T>& view,
+                 Bounces& counts) {
+    const Vec3<T> diffuse(material.diffuse);
+    const T n_dot_v = dot(from.side, view);
+    Vec3<T> sum = Vec3<T>(scene.ambient()) * diffuse;
     for (const LightRecord& entry : scene.lights()) {
         const Light& light = *entry.light;
-        const bool far = light.kind == LightKind::directional;
-        const Vec3<T> toward = far ? -Vec3<T>(light.direction) : Vec3<T>(light.position) - from.origin;
-        if (!(dot(from.side, toward) > T(0))) continue;
-        const WideRay<T> ray =
-            far ? WideRay<T>(from.origin, toward) : WideRay<T>::segment(from.origin, Vec3<T>(light.position));
+        const Incoming<T> in = incoming(light, from.origin);
+        const T n_dot_l = dot(from.side, in.direction);
+        if (!(n_dot_l > T(0))) continue;
+        const WideRay<T> ray = light.kind == LightKind::directional
+                                   ? WideRay<T>(from.origin, in.direction)
+                                   : WideRay<T>::segment(from.origin, Vec3<T>(light.position));
+        const bool blocked = is_blocked(scene, ray, from.departed, nullptr);
         ++counts.rays;
-        counts.blocked += is_blocked(scene, ray, from.departed, nullptr);
+        counts.blocked += blocked;
+        if (!blocked)
+            sum = sum + in.irradiance * reflectance(diffuse, material, from.side, in.direction, view, n_dot_l, n_dot_v);
     }
+    return sum;
 }
 
 template <class T>
-void bounce(const Snapshot& scene, const WideRay<T>& ray, Departure departed, const Leaving& leaving, int depth,
-            Bounces& counts) {
+Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, Departure departed, const Leaving& leaving, int depth,
+               Bounces& counts) {
     ++counts.rays;
     const Nearest<T> nearest = closest_hit(scene, ray, departed);
-    if (!nearest.hit) return;
+    if (!nearest.hit) return Vec3<T>(scene.background());
     ++counts.hits;
+    const Material& material = *scene.objects()[scene.geometry().primitives[nearest.primitive].object].material;
+    const Vec3<T>& d = ray.narrow.direction;
     const Departing<T> from = depart(scene.geometry(), nearest, ray, leaving);
-    ask_lights(scene, from, counts);
-    if (depth > 1)
-        bounce<T>(scene, {from.origin, reflected_direction(ray.narrow.direction, from.side)}, from.departed, leaving,
-                  depth - 1, counts);
+    const Vec3<T> local = light_of(scene, material, from, -d, counts);
+    if (depth == 1) return local;
+    const WideRay<T> mirrored(from.origin, reflected_direction(d, from.side));
+    return local + bounce(scene, mirrored, from.departed, leaving, depth - 1, counts);
 }
 
 }  // namespace
@@ -74,9 +85,11 @@ Bounces trace_bounces(const Snapshot& scene, std::span<const Vec3d> origins, std
         rays.emplace_back(Vec3<T>(origins[i]), direction);
     }
     Bounces counts;
-    const Stopwatch stopwatch;
-    for (const WideRay<T>& ray : rays) bounce(scene, ray, {}, leaving, 2, counts);
-    counts.seconds = stopwatch.seconds();
+    const std::clock_t begin = std::clock();
+    Vec3<T> radiance;
+    for (const WideRay<T>& ray : rays) radiance = radiance + bounce(scene, ray, {}, leaving, 2, counts);
+    counts.seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    counts.radiance = double(radiance.x + radiance.y + radiance.z);
     return counts;
 }
 
