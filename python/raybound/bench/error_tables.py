@@ -17,6 +17,7 @@ WRONG = {
     "missed": ("missed", "sure"),
     "behind": ("behind", "checked"),
     "nans": ("nans", "hits"),
+    "broken": ("broken", "bounds"),
     "lost": ("lost", "sent_back"),
 }
 
@@ -59,7 +60,8 @@ def share(part: int, whole: int) -> str:
 
 def _totals(result: dict[str, Any]) -> Table:
     cases, rays = len(result["cases"]), result["totals"]["float32"]["bounded"]["spawned"]
-    columns = ["self-hits", "inside", "leaks", "missed", "behind", "NaN", "lost", "offset, ulp", "99 %", "bound/error"]
+    columns = ["self-hits", "inside", "leaks", "missed", "behind", "NaN", "broken", "lost"]
+    columns += ["offset, ulp", "99 %", "bound/error", "ns/ray", "over epsilon"]
     rows = []
     for precision in PRECISIONS:
         for offsets, found in result["totals"][precision].items():
@@ -69,9 +71,9 @@ def _totals(result: dict[str, Any]) -> Table:
             )
     title = (
         f"Origins of spawned rays on {cases} hard cases and {len(result['kinds'])} kinds of shapes, {rays} rays leaving"
-        " surfaces in each row; times are of one core"
+        " surfaces in each row; processor time of one core"
     )
-    return Table(title, ["origins", *columns, "ns/ray", "over epsilon"], rows)
+    return Table(title, ["origins", *columns], rows)
 
 
 def _spread(found: dict[str, Any]) -> list[str]:
