@@ -32,6 +32,13 @@ class _Traced(TypedDict):
     t: _Float
     rays: _Rays
 
+class _Bounces(TypedDict):
+    rays: int
+    hits: int
+    blocked: int
+    radiance: float
+    seconds: float
+
 class _ClosestHits(TypedDict):
     t: _Float
     object_id: npt.NDArray[np.int32]
@@ -129,7 +136,12 @@ def csg_union(shapes: list[Shape]) -> Shape: ...
 def csg_intersection(shapes: list[Shape]) -> Shape: ...
 def transformed(shape: Shape, matrix: _Double) -> Shape: ...
 def intersect_shape(
-    shape: Shape, origins: _Float, directions: _Float, precision: str, offsets: str
+    shape: Shape,
+    origins: _Float | _Double,
+    directions: _Float | _Double,
+    precision: str,
+    offsets: str,
+    inward: bool = False,
 ) -> npt.NDArray[np.void]: ...
 
 # Materials, textures, lights
@@ -258,5 +270,8 @@ def trace(
 ) -> _Traced: ...
 def closest_hits(snapshot: Snapshot, origins: _Float, directions: _Float, *, threads: int) -> _ClosestHits: ...
 def primary_hits(snapshot: Snapshot, camera: Camera, *, threads: int) -> tuple[int, float]: ...
+def trace_bounces(
+    snapshot: Snapshot, origins: _Double, directions: _Double, *, precision: str, offsets: str, skips: bool
+) -> _Bounces: ...
 def explain(snapshot: Snapshot, camera: Camera, x: int, y: int, max_depth: int) -> dict[str, Any]: ...
 def build_info() -> _BuildInfo: ...
