@@ -65,7 +65,7 @@ class Number:
         if not self.ndim:
             raise TypeError(f"a single {type(self).__name__} cannot be indexed")
         where = index if isinstance(index, tuple) else (index,)
-        if Ellipsis not in [item for item in where if item is Ellipsis]:
+        if not any(item is Ellipsis for item in where):
             where = (*where, Ellipsis)
         return self._made(self._kind, self._records[(*where, slice(None))].copy(), (self, where))
 
@@ -181,12 +181,10 @@ def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
 
 
 def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDArray[Any]:
-    """A number or an array of numbers as float32 (if it was) or float64. TypeError; ValueError for NaN (and infinity)."""
+    """A number or an array of numbers, float32 if it was, else float64. TypeError; ValueError for NaN (and infinity)."""
     if (
-        isinstance(value, Number) or type(value).__array_ufunc__ is None
-        if hasattr(type(value), "__array_ufunc__")
-        else False
-    ):
+        getattr(type(value), "__array_ufunc__", 0) is None
+    ):  # a class that leaves no operator to NumPy: a Number, a shape
         raise _NotOursError(f"{who}: {name} must be a number or an array of numbers, got a {type(value).__name__}")
     try:
         given = _validate.numeric(who, name, value, "a number or an array of numbers")

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from .. import _core, _validate
+from .. import _core
 from .base import Number, is_weak, operate, plain
 
 KIND = {np.dtype(np.float32): "interval_float32", np.dtype(np.float64): "interval_float64"}
@@ -152,8 +152,3 @@ class Interval(Number):
         if self._records.dtype == np.float32:
             return f"{name}(np.float32({self.inf}), np.float32({self.sup}))"
         return f"{name}({float(self.inf)!r}, {float(self.sup)!r})"
-
-
-def describe(interval: Interval) -> str:
-    """The interval in an error message."""
-    return _validate.describe(interval)
