@@ -37,11 +37,11 @@ inline V raise_if_positive(V residual, V nearest) {
 template <class D>
 inline lanes::With<D, float> float_above(D d, D e) {
     using F = lanes::With<D, float>;
-    using Bits = lanes::Bits<F>;
     const F f = lanes::convert<F>(d);
 #ifdef RAYBOUND_SABOTAGE_ROUNDING
     return e == e ? f : f;
 #else
+    using Bits = lanes::Bits<F>;
     const D back = lanes::convert<D>(f);
     const auto below = lanes::convert<Bits>((back < d) | ((back == d) & (e > 0)));
     const auto bits = std::bit_cast<Bits>(f);
