@@ -213,5 +213,18 @@ inline bool has_product_error(V a, V b, V product) {
 }
 #endif
 
+// The same of two products at once. A NaN in p passes `lesser` and fails there, one in q fails in `greater`.
+template <class V>
+inline bool have_product_errors([[maybe_unused]] V a, [[maybe_unused]] V b, V product, [[maybe_unused]] V c,
+                                [[maybe_unused]] V d, V other) {
+    const V p = magnitude(product), q = magnitude(other);
+    const V lesser = q < p ? q : p;
+#ifndef __FMA__
+    if (!all_between(greater(greater(magnitude(a), magnitude(b)), greater(magnitude(c), magnitude(d))), 0, 0x1p990))
+        return false;
+#endif
+    return all((lesser >= 0x1p-960) & (greater(p, q) < 0x1p1022));
+}
+
 }  // namespace lanes
 }  // namespace raybound

@@ -157,6 +157,23 @@ struct PortableRounding {
         }
     }
 
+    // The greater of a b and c d, rounded up, at the price of one test for special cases: false, and nothing done,
+    // where there may be one.
+    template <class V>
+    static bool try_greater_product_up(V a, V b, V c, V d, V& greater) {
+        if constexpr (rounding::by_double<V>) {
+            const auto x = rounding::wide(a) * rounding::wide(b), y = rounding::wide(c) * rounding::wide(d);
+            if (!lanes::all_finite(x + y)) return false;
+            greater = rounding::float_above(lanes::greater(x, y));
+        } else {
+            const V x = a * b, y = c * d;
+            if (!lanes::have_product_errors(a, b, x, c, d, y)) return false;
+            greater = lanes::greater(rounding::raise_if_positive(lanes::product_error(a, b, x), x),
+                                     rounding::raise_if_positive(lanes::product_error(c, d, y), y));
+        }
+        return true;
+    }
+
     template <class V>
     static V divide_up(V a, V b) {
         if constexpr (rounding::by_double<V>) {
