@@ -129,10 +129,12 @@ inline bool all_between(V x, Value<V> low, Value<V> high) {
 
 template <class V>
 inline bool all_finite(V x) {
-#ifdef __AVX512DQ__
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
     constexpr int not_finite = 0x99;  // quiet and signalling NaN, either infinity
     if constexpr (sizeof(V) == 64 && count<V> == 8)
         return _mm512_fpclass_pd_mask((__m512d)x, not_finite) == 0;
+    else if constexpr (sizeof(V) == 16 && count<V> == 2)
+        return _mm_fpclass_pd_mask((__m128d)x, not_finite) == 0;
     else
 #endif
         return all(magnitude(x) < every<V>(std::numeric_limits<Value<V>>::infinity()));
