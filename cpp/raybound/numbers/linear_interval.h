@@ -14,6 +14,7 @@
 // Derivations: D20 (products), D21 (functions), D22 (the bound of interpolation).
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "raybound/numbers/interval.h"
@@ -131,6 +132,13 @@ class LinearInterval {
     Bound constant_;
     Slopes slope_;
     Bound range_;
+};
+
+template <int N, LinearRule R>
+struct NumberTraits<LinearInterval<N, R>> {
+    using Mask = Verdict;
+    using Wide = LinearInterval<N, R>;
+    static constexpr double unit_roundoff = NumberTraits<double>::unit_roundoff;
 };
 
 }  // namespace raybound

@@ -72,8 +72,8 @@ inline LinearInterval<N, R> operator*(const LinearInterval<N, R>& a, const Linea
     return {constant, slopes, a.range() * b.range()};
 }
 
-// With q = a_0 / b_0 and the form w = sum_i (a_i - q b_i) x_i, exactly a / b = q + w / b = q + w / b_0 - w (b - b_0) /
-// (b_0 b).
+// With q = a_0 / b_0 and the form w = sum_i (a_i - q b_i) x_i, exactly
+//     a / b = q + w / b = q + w / b_0 - w (b - b_0) / (b_0 b).
 template <int N, LinearRule R>
 inline LinearInterval<N, R> operator/(const LinearInterval<N, R>& a, const LinearInterval<N, R>& b) {
     using Result = LinearInterval<N, R>;
