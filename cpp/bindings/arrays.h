@@ -101,6 +101,8 @@ void register_numbers(py::module_& m);
 void register_running_errors(py::module_& m);
 void register_linear_intervals(py::module_& m);
 void register_elementary_ranges(py::module_& m);
+void register_intervals(py::module_& m);
+void register_number_bench(py::module_& m);
 void register_transforms(py::module_& m);
 void register_shapes(py::module_& m);
 void register_materials(py::module_& m);

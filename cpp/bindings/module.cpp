@@ -21,6 +21,8 @@ PYBIND11_MODULE(RAYBOUND_MODULE, m) {
     register_running_errors(m);
     register_linear_intervals(m);
     register_elementary_ranges(m);
+    register_intervals(m);
+    register_number_bench(m);
     register_transforms(m);
     register_shapes(m);
     register_materials(m);
