@@ -1,5 +1,4 @@
 #include "bindings/number_operations.h"
-#include "raybound/numbers/linear_interval_choices.h"
 #include "raybound/numbers/linear_interval_functions.h"
 
 namespace raybound::python {

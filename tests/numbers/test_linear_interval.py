@@ -448,6 +448,58 @@ def test_ranges_that_touch_the_domain_are_kept(rule: str) -> None:
         assert (result.slopes == 0).all()
 
 
+@every_rule
+@every_operation
+def test_extreme_operands(op: Operation, rule: str) -> None:
+    """Coefficients from 1e-320 to 1e308, of both signs, and zeros: no NaN, ends in order, and exact members inside."""
+    n, count = 2000, 2
+    rng = np.random.default_rng(51)
+
+    def extreme(*shape: int) -> Array:
+        sizes = 10.0 ** np.where(rng.random(shape) < 0.5, rng.uniform(-320, 308, shape), rng.uniform(-3, 1, shape))
+        return sizes * rng.choice([-1.0, 0.0, 1.0, 1.0], shape)
+
+    operands = []
+    for _ in op.domain:
+        constant = extreme(n, 1)
+        slopes = extreme(n, count, 1) * rng.choice([0.0, 1.0], (n, 1, 1))
+        operands.append(assemble(np.repeat(constant, 2, 1), np.repeat(slopes, 2, 2), rule))
+    result = operands[0].apply(op.name, *operands[1:], parameter=op.parameter)
+    assert not np.isnan(result.rows).any()
+    assert (result.rows[:, ::2] <= result.rows[:, 1::2]).all()
+    assert result.bounded.mean() > 0.05
+    bounded = result.bounded & np.all([f.bounded for f in operands], axis=0)
+    for x in ([0.0, 0.0], [1.0, 1.0], [-1.0, 1.0]):
+        at = np.tile(np.array(x, EXACT), (n, 1))
+        inside = [f.constant[:, 0].astype(EXACT) + (f.slopes[:, :, 0] * at).sum(axis=1) for f in operands]
+        with np.errstate(all="ignore"):
+            value = op.exact(*inside)
+        low, high = result.range.astype(EXACT).T
+        slack = 2**-40 * np.abs(value) + (2**-40 * sum(np.abs(v) for v in inside) if len(inside) > 1 else 0)
+        checked = bounded & np.isfinite(value)
+        if op.name in ("sin", "cos", "tan"):
+            checked &= np.abs(inside[0]) < 1e9  # the oracle's own reduction
+        assert (low - slack <= value)[checked].all()
+        assert (value <= high + slack)[checked].all()
+        assert checked.sum() > 0.03 * n
+
+
+def test_the_lobe_as_one_operator() -> None:
+    """Composed of its parts it is 1.27 times as wide at the median (seen), and undefined where the cosine reaches 0."""
+    n, rule = 1000, "second-order"
+    rng = np.random.default_rng(61)
+    center, radius = rng.uniform(0.3, 0.95, (n, 4)), np.full((n, 4), 0.01)
+    cosine = variables(center, radius, rule)[0]
+    whole = cosine.apply("ward_lobe", parameter=0.25)
+    parts = ((cosine.like(1.0) - cosine.apply("square").apply("reciprocal")) * 16.0).apply("exp")
+    seen = whole.bounds[1] > 1e-6
+    assert seen.sum() > 0.3 * n
+    assert (whole.bounds[1] <= parts.bounds[1] * (1 + 1e-9))[seen].all()
+    assert np.median((parts.bounds[1] / whole.bounds[1])[seen]) > 1.2
+    dark = variables(np.zeros((1, 1)), np.full((1, 1), 0.3), rule)[0].apply("ward_lobe", parameter=0.25)
+    assert 0 <= dark.range[0, 1] <= 1e-60
+
+
 def test_bad_input() -> None:
     row = np.zeros((1, 6))
     with pytest.raises(ValueError, match=r"rule must be .* got 'third-order'"):

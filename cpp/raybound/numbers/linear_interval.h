@@ -14,6 +14,7 @@
 // Derivations: D20 (products), D21 (functions), D22 (the bound of interpolation).
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "raybound/numbers/interval.h"
@@ -102,13 +103,14 @@ class LinearInterval {
         for (int i = 0; i < N; ++i) slopes[i] = a.slope_[i] - b.slope_[i];
         return {a.constant_ - b.constant_, slopes, a.range_ - b.range_};
     }
-    friend LinearInterval operator*(const LinearInterval& a, double b) {
-        if (a.is_entire()) return a;
-        const Bound factor(b);
+    // Times a constant that lies in the interval.
+    LinearInterval scaled(const Bound& factor) const {
+        if (is_entire()) return *this;
         Slopes slopes;
-        for (int i = 0; i < N; ++i) slopes[i] = a.slope_[i] * factor;
-        return {a.constant_ * factor, slopes, a.range_ * factor};
+        for (int i = 0; i < N; ++i) slopes[i] = slope_[i] * factor;
+        return {constant_ * factor, slopes, range_ * factor};
     }
+    friend LinearInterval operator*(const LinearInterval& a, double b) { return a.scaled(Bound(b)); }
     friend LinearInterval operator*(double a, const LinearInterval& b) { return b * a; }
 
   private:
@@ -130,6 +132,13 @@ class LinearInterval {
     Bound constant_;
     Slopes slope_;
     Bound range_;
+};
+
+template <int N, LinearRule R>
+struct NumberTraits<LinearInterval<N, R>> {
+    using Mask = Verdict;
+    using Wide = LinearInterval<N, R>;
+    static constexpr double unit_roundoff = NumberTraits<double>::unit_roundoff;
 };
 
 }  // namespace raybound

@@ -2,6 +2,7 @@
 // (thesis 4.3.5) over any function that can bound its derivatives.
 #pragma once
 
+#include "raybound/numbers/linear_interval_choices.h"
 #include "raybound/numbers/linear_interval_products.h"
 #include "raybound/numbers/smooth_functions.h"
 
@@ -104,5 +105,7 @@ template <int N, LinearRule R>
 inline LinearInterval<N, R> ward_lobe(const LinearInterval<N, R>& cosine, double sigma) {
     return linear_intervals::compose(smooth::WardLobe(sigma), cosine);
 }
+
+static_assert(Number<LinearInterval<4, LinearRule::hansen>> && Number<LinearInterval<4, LinearRule::second_order>>);
 
 }  // namespace raybound

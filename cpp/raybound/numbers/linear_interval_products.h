@@ -57,6 +57,8 @@ inline FoldedForms<N> fold_into_slopes(const std::array<Bound, N>& u, const std:
 template <int N, LinearRule R>
 inline LinearInterval<N, R> operator*(const LinearInterval<N, R>& a, const LinearInterval<N, R>& b) {
     if (a.is_entire() || b.is_entire()) return LinearInterval<N, R>::entire();
+    if (a.reach() == 0) return b.scaled(a.constant());
+    if (b.reach() == 0) return a.scaled(b.constant());
     auto constant = a.constant() * b.constant();
     typename LinearInterval<N, R>::Slopes slopes;
     for (int i = 0; i < N; ++i) slopes[i] = a.constant() * b.slope(i) + b.constant() * a.slope(i);
@@ -70,8 +72,8 @@ inline LinearInterval<N, R> operator*(const LinearInterval<N, R>& a, const Linea
     return {constant, slopes, a.range() * b.range()};
 }
 
-// With q = a_0 / b_0 and the form w = sum_i (a_i - q b_i) x_i, exactly a / b = q + w / b = q + w / b_0 - w (b - b_0) /
-// (b_0 b).
+// With q = a_0 / b_0 and the form w = sum_i (a_i - q b_i) x_i, exactly
+//     a / b = q + w / b = q + w / b_0 - w (b - b_0) / (b_0 b).
 template <int N, LinearRule R>
 inline LinearInterval<N, R> operator/(const LinearInterval<N, R>& a, const LinearInterval<N, R>& b) {
     using Result = LinearInterval<N, R>;

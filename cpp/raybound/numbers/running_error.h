@@ -140,7 +140,8 @@ class RunningError {
     // The value that the plain kernel selects, in an enclosure of what might have been selected.
     friend RunningError select(RunningVerdict which, const RunningError& yes, const RunningError& no) {
         RunningError result = which.computed ? yes : no;
-        if (which.certain == Verdict::unknown) result.enclosure_ = hull(yes.enclosure_, no.enclosure_);
+        result.enclosure_ = select(which.certain, yes.enclosure_, no.enclosure_);
+        result.settle();
         return result;
     }
 
