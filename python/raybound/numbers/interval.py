@@ -44,7 +44,9 @@ class Interval(Number):
     def __init__(self, lo: npt.ArrayLike, hi: npt.ArrayLike | None = None) -> None:
         low = plain("Interval", "lo", lo, finite=False)
         high = low if hi is None else plain("Interval", "hi", hi, finite=False)
-        dtype = np.result_type(*[a.dtype for a, given in ((low, lo), (high, hi)) if not is_weak(given)] or [np.float64])
+        dtype = np.result_type(
+            *[a.dtype for a, given in ((low, lo), (high, hi)) if not is_weak(given)] or [np.dtype(np.float64)]
+        )
         if dtype == np.float32 and any(not np.array_equal(a, a.astype(dtype)) for a in (low, high)):
             dtype = np.dtype(np.float64)
         try:

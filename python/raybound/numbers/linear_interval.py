@@ -51,6 +51,11 @@ class LinearInterval(CellNumber):
         records[..., 0:2] = values[..., np.newaxis]
         records[..., -2:] = values[..., np.newaxis]
 
+    def _set_interval(self, records: npt.NDArray[np.float64], interval: Interval) -> None:
+        ends = np.stack([interval.inf, interval.sup], axis=-1)
+        records[..., 0:2] = ends
+        records[..., -2:] = ends
+
     @property
     def rule(self) -> str:
         """How functions are bounded: "hansen" or "second-order"."""

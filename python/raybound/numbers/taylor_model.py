@@ -50,7 +50,11 @@ class TaylorModel(CellNumber):
 
     @property
     def _n(self) -> int:
-        return self._cell[0].shape[-1]
+        return int(self._cell[0].shape[-1])
+
+    def _set_interval(self, records: npt.NDArray[np.float64], interval: Interval) -> None:
+        records[..., 0] = interval.mid
+        records[..., -1] = interval.rad
 
     @property
     def arithmetic(self) -> str:
