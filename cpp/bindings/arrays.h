@@ -101,7 +101,6 @@ void register_numbers(py::module_& m);
 void register_number_kinds(py::module_& m);
 void register_cells(py::module_& m);
 void register_running_errors(py::module_& m);
-void register_linear_intervals(py::module_& m);
 void register_elementary_ranges(py::module_& m);
 void register_intervals(py::module_& m);
 void register_number_bench(py::module_& m);

@@ -21,7 +21,6 @@ PYBIND11_MODULE(RAYBOUND_MODULE, m) {
     register_number_kinds(m);
     register_cells(m);
     register_running_errors(m);
-    register_linear_intervals(m);
     register_elementary_ranges(m);
     register_intervals(m);
     register_number_bench(m);

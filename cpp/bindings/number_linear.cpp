@@ -53,6 +53,7 @@ void register_linear_rules() {
     const std::string n = std::to_string(N);
     register_linear<N, LinearRule::hansen>("linear_" + n + "_hansen");
     register_linear<N, LinearRule::second_order>("linear_" + n + "_second-order");
+    register_linear<N, LinearRule::second_order_slopes>("linear_" + n + "_second-order-slopes");
 }
 
 }  // namespace

@@ -43,6 +43,9 @@ void register_running_errors_of(const std::string& name) {
 void register_running_error_kinds() {
     register_running_errors_of<float>("running_error_float32");
     register_running_errors_of<double>("running_error_float64");
+    // With the check that debug builds make of every operation.
+    register_kind<RunningError<float, HighPrecision<float>>>("running_error_float32_shadow");
+    register_kind<RunningError<double, HighPrecision<double>>>("running_error_float64_shadow");
 }
 
 }  // namespace raybound::python

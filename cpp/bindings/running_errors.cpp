@@ -1,4 +1,4 @@
-#include "bindings/number_operations.h"
+#include "bindings/number_rows.h"
 #include "raybound/numbers/running_error_quadratic.h"
 
 namespace raybound::python {
@@ -21,33 +21,6 @@ template <class Function>
 auto with_type(bool wide, bool shadow, Function f) {
     if (wide) return shadow ? f(RunningError<double, HighPrecision<double>>()) : f(RunningError<double, NoShadow>());
     return shadow ? f(RunningError<float, HighPrecision<float>>()) : f(RunningError<float, NoShadow>());
-}
-
-Doubles running_error_operation(const std::string& name, const std::vector<Doubles>& arrays, double parameter,
-                                bool wide, bool shadow) {
-    const Operands rows(arrays, 3);
-    Doubles out({rows.count(), py::ssize_t(3)});
-    with_type(wide, shadow, [&]<class T>(T) {
-        for (py::ssize_t i = 0; i < rows.count(); ++i)
-            store(operate<T>(name, {load<T>(rows.at(i, 0)), load<T>(rows.at(i, 1)), load<T>(rows.at(i, 2))}, parameter),
-                  out.mutable_data() + 3 * i);
-    });
-    return out;
-}
-
-// error and relative_error, (n, 2).
-Doubles running_error_sizes(const Doubles& x, bool wide) {
-    const std::vector<Doubles> arrays{x};
-    const Operands rows(arrays, 3);
-    Doubles out({rows.count(), py::ssize_t(2)});
-    with_type(wide, false, [&]<class T>(T) {
-        for (py::ssize_t i = 0; i < rows.count(); ++i) {
-            const T number = load<T>(rows.at(i, 0));
-            out.mutable_data()[2 * i] = number.error();
-            out.mutable_data()[2 * i + 1] = number.relative_error();
-        }
-    });
-    return out;
 }
 
 // The two roots as rows of six, and per row the verdict (0 no, 1 yes, 2 unknown) and what the plain kernel says.
@@ -104,9 +77,6 @@ void running_error_broken_addition(double a, double b, bool wide) {
 }  // namespace
 
 void register_running_errors(py::module_& m) {
-    m.def("running_error_operation", &running_error_operation, "name"_a, "operands"_a, "parameter"_a, "double"_a,
-          "shadow"_a);
-    m.def("running_error_sizes", &running_error_sizes, "numbers"_a, "double"_a);
     m.def("running_error_quadratic", &running_error_quadratic, "coefficients"_a, "double"_a, "shadow"_a);
     m.def("running_error_lesser", &running_error_lesser, "a"_a, "b"_a, "double"_a);
     m.def("running_error_broken_addition", &running_error_broken_addition, "a"_a, "b"_a, "double"_a);

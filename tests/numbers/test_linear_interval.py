@@ -12,6 +12,10 @@ import pytest
 
 from raybound import _core
 
+
+def apply(kind: str, name: str, *rows: Any, parameter: float = 0) -> Any:
+    return _core.apply(kind, name, list(rows), parameter)
+
 RULES = ["hansen", "second-order", "second-order-slopes"]
 EXACT = np.longdouble  # 64 bits of precision where the tests run: 2^-11 of a double's ulp
 Array = np.ndarray[Any, Any]
@@ -45,10 +49,14 @@ class Number:
         return np.isfinite(self.rows).all(axis=1)
 
     @property
+    def kind(self) -> str:
+        return f"linear_{self.variables}_{self.rule}"
+
+    @property
     def bounds(self) -> tuple[Array, Array]:
         """corner_bound and interpolation_bound."""
-        both = _core.linear_interval_bounds(self.rows, self.variables, self.rule)
-        return both[:, 0], both[:, 1]
+        both = apply(self.kind, "bounds", self.rows)
+        return both[:, 1], both[:, 0]
 
     def at(self, x: Array) -> tuple[Array, Array]:
         """The ends of F(x) within the range, in higher precision."""
@@ -60,7 +68,7 @@ class Number:
 
     def apply(self, name: str, *others: Any, parameter: float = 0) -> "Number":
         operands = [self.rows] + [self.like(o).rows for o in others]
-        return Number(_core.linear_interval_operation(name, operands, parameter, self.variables, self.rule), self.rule)
+        return Number(apply(self.kind, name, *operands, parameter=parameter), self.rule)
 
     def like(self, other: Any) -> "Number":
         return (
@@ -502,9 +510,9 @@ def test_the_lobe_as_one_operator() -> None:
 
 def test_bad_input() -> None:
     row = np.zeros((1, 6))
-    with pytest.raises(ValueError, match=r"rule must be .* got 'third-order'"):
-        _core.linear_interval_operation("exp", [row], 0, 1, "third-order")
-    with pytest.raises(ValueError, match="variables must be 1, 2 or 4, got 3"):
-        _core.linear_interval_bounds(row, 3, "hansen")
+    with pytest.raises(ValueError, match=r"unknown, got 'linear_1_third-order'"):
+        apply("linear_1_third-order", "exp", row)
+    with pytest.raises(ValueError, match="no operation is called 'gamma'"):
+        apply("linear_1_hansen", "gamma", row)
     with pytest.raises(ValueError, match="sigma must be > 0 and finite, got -1"):
-        _core.linear_interval_operation("ward_lobe", [row + 1], -1, 1, "hansen")
+        apply("linear_1_hansen", "ward_lobe", row + 1, parameter=-1)

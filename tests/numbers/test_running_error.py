@@ -50,8 +50,17 @@ def below(x: float, exact: flint.fmpq) -> bool:
     return x == -math.inf or (x != math.inf and rational(x) <= exact)
 
 
+def kind(wide: bool, *, shadow: bool = False) -> str:
+    return f"running_error_float{64 if wide else 32}" + ("_shadow" if shadow else "")
+
+
+def errors(rows: Any, wide: bool) -> Rows:
+    """error and relative_error, (n, 2)."""
+    return np.asarray(_core.apply(kind(wide), "errors", [rows]), float)[:, :2]
+
+
 def operation(name: str, operands: list[Rows], wide: bool, parameter: float = 0.0, shadow: bool = True) -> Rows:
-    return _core.running_error_operation(name, operands, parameter, wide, shadow)
+    return np.asarray(_core.apply(kind(wide, shadow=shadow), name, operands, parameter), float)
 
 
 def point(x: Any) -> Rows:
@@ -250,7 +259,7 @@ def test_error_and_relative_error(wide: bool) -> None:
     n = 3000
     rng = np.random.default_rng(29)
     rows, exact = numbers(rng, n, wide)
-    sizes = _core.running_error_sizes(rows, wide)
+    sizes = errors(rows, wide)
     signed = rows[:, 1] * rows[:, 2] > 0
     assert signed.sum() > 0.9 * n
     for (value, lower, upper), x, (error, relative), sure in zip(rows.tolist(), exact.tolist(), sizes.tolist(), signed):
@@ -262,7 +271,7 @@ def test_error_and_relative_error(wide: bool) -> None:
             assert relative <= error / min(abs(lower), abs(upper)) * (1 + 2**-22)
         else:
             assert relative == math.inf
-    zero = _core.running_error_sizes(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 2.0]]), wide)
+    zero = errors(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 2.0]]), wide)
     assert zero.tolist() == [[0.0, 0.0], [1.0, math.inf]]
 
 
@@ -290,7 +299,7 @@ def test_domain_errors_are_flagged(name: str, operands: list[list[float]], param
     """The error is infinite, and stays so whatever follows, a product with 0 included."""
     result = operation(name, [np.array([row]) for row in operands], wide, parameter)
     assert result[0, 1:].tolist() == [-math.inf, math.inf]
-    assert _core.running_error_sizes(result, wide).tolist() == [[math.inf, math.inf]]
+    assert errors(result, wide).tolist() == [[math.inf, math.inf]]
     for later in ("multiply", "minimum", "add"):
         after = operation(later, [result, point(0.0)], wide)
         assert after[0, 1:].tolist() == [-math.inf, math.inf]
@@ -304,7 +313,7 @@ def test_overflow_and_underflow(wide: bool) -> None:
     assert operation("add", [point(-most), point(-most)], wide)[0].tolist() == [-math.inf, -math.inf, -most]
     assert operation("multiply", [point(least), point(0.5)], wide)[0].tolist() == [0.0, 0.0, least]
     assert operation("exp", [point(1e4)], wide)[0].tolist() == [math.inf, most, math.inf]
-    assert _core.running_error_sizes(operation("exp", [point(1e4)], wide), wide)[0, 0] == math.inf
+    assert errors(operation("exp", [point(1e4)], wide), wide)[0, 0] == math.inf
 
 
 @pytest.mark.parametrize("wide", TYPES)

@@ -15,7 +15,7 @@ struct Operation {
 };
 
 inline constexpr auto unary = std::tuple{
-    Operation{"negative", [](const auto& x) { return -x; }},
+    Operation{"negate", [](const auto& x) { return -x; }},
     Operation{"abs", [](const auto& x) { return abs(x); }},
     Operation{"square", [](const auto& x) { return square(x); }},
     Operation{"sqrt", [](const auto& x) { return sqrt(x); }},

@@ -95,7 +95,7 @@ class Number:
         return None
 
     def __neg__(self) -> Self:
-        result: Self = operate("negative", self)
+        result: Self = operate("negate", self)
         return result
 
     def __pos__(self) -> Self:
@@ -184,7 +184,7 @@ def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
 
 
 def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDArray[Any]:
-    """A number or an array of numbers, float32 if it was, else float64. TypeError; ValueError for NaN (and infinity)."""
+    """Numbers as an array, float32 if they were, else float64. TypeError; ValueError for NaN (and infinity)."""
     # A class that leaves no operator to NumPy: a Number, or a shape.
     if getattr(type(value), "__array_ufunc__", 0) is None:
         raise _NotOursError(f"{who}: {name} must be a number or an array of numbers, got a {type(value).__name__}")
