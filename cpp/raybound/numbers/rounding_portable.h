@@ -48,7 +48,9 @@ inline lanes::With<D, float> float_above(D d, D e) {
     const D back = lanes::convert<D>(f);
     const auto below = lanes::convert<Bits>((back < d) | ((back == d) & (e > 0)));
     const auto bits = std::bit_cast<Bits>(f);
-    const Bits above = f == 0 ? lanes::every<Bits>(1) : bits + ((bits >> 31) | 1);  // of zero the least subnormal
+    using Unsigned = lanes::With<D, std::uint32_t>;  // of -0 the step wraps around, and is not used
+    const auto next = std::bit_cast<Unsigned>(bits) + std::bit_cast<Unsigned>((bits >> 31) | 1);
+    const Bits above = f == 0 ? lanes::every<Bits>(1) : std::bit_cast<Bits>(next);  // of zero the least subnormal
     return std::bit_cast<F>(below ? above : bits);
 #endif
 }
