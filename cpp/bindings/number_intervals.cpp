@@ -4,12 +4,12 @@
 
 namespace raybound::python {
 
-template <class T, Arithmetic A>
-struct Record<Interval<T, A>> {
+template <class T, Arithmetic A, class R>
+struct Record<Interval<T, A, R>> {
     using Value = T;
     static constexpr int width = 2;
-    static Interval<T, A> load(const T* p) { return {p[0], p[1]}; }
-    static void store(const Interval<T, A>& x, T* p) {
+    static Interval<T, A, R> load(const T* p) { return {p[0], p[1]}; }
+    static void store(const Interval<T, A, R>& x, T* p) {
         p[0] = x.inf();
         p[1] = x.sup();
     }
@@ -24,6 +24,9 @@ void register_intervals(const std::string& name) {
     auto& operations = number_kinds()[name].operations;
     operations["hull"] = [](const std::vector<py::array>& a, double) {
         return apply_to_records<I, 2>(a, [](const auto& x) { return hull(x[0], x[1]); });
+    };
+    operations["select_by_less"] = [](const std::vector<py::array>& a, double) {
+        return apply_to_records<I, 2>(a, [](const auto& x) { return select(x[0] < x[1], x[0], x[1]); });
     };
     operations["intersection"] = [](const std::vector<py::array>& a, double) {
         return apply_to_records<I, 2>(a, [](const auto& x) { return intersection(x[0], x[1]); });
@@ -63,6 +66,8 @@ void register_interval_kinds(py::module_& m) {
     register_intervals<Interval<float>>("interval_float32");
     register_intervals<Interval<double, Arithmetic::float32>>("interval_float64_executed");
     register_intervals<Interval<float, Arithmetic::float32>>("interval_float32_executed");
+    register_intervals<Interval<double, Arithmetic::real, PortableRounding>>("interval_float64_portable");
+    register_intervals<Interval<float, Arithmetic::real, PortableRounding>>("interval_float32_portable");
     m.def("interval_properties", &properties, "intervals"_a);
     m.def("interval_points", &points, "values"_a);
 }

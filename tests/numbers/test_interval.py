@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from tests.support.support_intervals import interval_operation
 
 from raybound import _core
 
@@ -21,7 +22,7 @@ Ends = tuple[float, float]
 
 
 def apply(name: str, *operands: NDArray[np.float64], kind: str = "double", parameter: float = 0) -> NDArray[np.float64]:
-    return _core.interval_operation(name, np.array(operands, np.float64), kind, parameter)
+    return interval_operation(name, np.array(operands, np.float64), kind, parameter)
 
 
 def one(name: str, *operands: Ends, kind: str = "double", parameter: float = 0) -> Ends:

@@ -6,8 +6,7 @@ from collections import Counter
 import numpy as np
 import pytest
 from tests.support import support_itl as itl
-
-from raybound import _core
+from tests.support.support_intervals import interval_operation
 
 pytestmark = pytest.mark.skipif(itl.folder() is None, reason="set RAYBOUND_DATA to a folder that holds itl/*.itl")
 
@@ -38,7 +37,7 @@ def all_cases() -> list[itl.Case]:
 
 def ours(name: str, inputs: tuple, kind: str, parameter: float = 0.0) -> itl.Ends:
     operands = np.array(inputs, np.float64).reshape(len(inputs), 2, 1)
-    ends = _core.interval_operation(name, operands, kind, parameter)
+    ends = interval_operation(name, operands, kind, parameter)
     return float(ends[0, 0]), float(ends[1, 0])
 
 

@@ -16,6 +16,7 @@ from raybound import _core
 def apply(kind: str, name: str, *rows: Any, parameter: float = 0) -> Any:
     return _core.apply(kind, name, list(rows), parameter)
 
+
 RULES = ["hansen", "second-order", "second-order-slopes"]
 EXACT = np.longdouble  # 64 bits of precision where the tests run: 2^-11 of a double's ulp
 Array = np.ndarray[Any, Any]
