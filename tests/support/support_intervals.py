@@ -5,6 +5,8 @@ from numpy.typing import NDArray
 
 from raybound import _core
 
+Rows = NDArray[np.float64]
+
 KINDS = {
     "double": "interval_float64",
     "float": "interval_float32",
@@ -16,8 +18,8 @@ KINDS = {
 
 
 def interval_operation(
-    name: str, operands: NDArray[np.float64], kind: str, parameter: float = 0
-) -> NDArray[np.float64]:
+    name: str, operands: Rows, kind: str, parameter: float = 0
+) -> Rows:
     """`operands` (k, 2, n) gives ends (2, n)."""
     rows = [np.ascontiguousarray(ends.T) for ends in operands]
     return np.ascontiguousarray(np.asarray(_core.apply(KINDS[kind], name, rows, parameter), np.float64).T)
