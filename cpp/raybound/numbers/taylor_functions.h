@@ -91,7 +91,7 @@ inline TaylorModel<N, A> fma(const TaylorModel<N, A>& a, const TaylorModel<N, A>
 // The functions with an enclosure of their own at a point. An execution is off by two units of roundoff.
 template <int N, Arithmetic A>
 inline TaylorModel<N, A> exp(const TaylorModel<N, A>& a) {
-    const double c = a.constant(), deviation = a.deviation();
+    const double c = a.constant(), deviation = a.deviation() * upward;
     if (!(a.high() < 700 && c > -700)) {
         if (!(a.high() < 700)) return TaylorModel<N, A>::entire();
         return within<N, A>(taylor::ends(a, exp_range), 2);
