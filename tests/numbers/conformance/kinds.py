@@ -40,6 +40,11 @@ class Kind:
         """centers + slopes xi + bends xi_0^2, the last where the kind has squares: (n,), (n, variables or 1), (n,)."""
         raise NotImplementedError
 
+    def variable(self, i: int, low: np.ndarray, high: np.ndarray) -> tuple[Records, np.ndarray, np.ndarray]:
+        """The i-th variable over cells [low, high], (n,), which are float32 numbers; and the center and radius of the
+        cells as the kind sees them."""
+        raise NotImplementedError
+
     def points(self, rng: np.random.Generator, n: int) -> np.ndarray:
         """Points of the domain, (n, variables): the center, corners, points on edges and inside."""
         points = rng.uniform(-1, 1, (n, self.variables))
@@ -124,6 +129,9 @@ class IntervalKind(Kind):
         radius = np.abs(slopes).sum(-1) + np.abs(bends)
         return self._mended(np.asarray(centers - radius, self.dtype), np.asarray(centers + radius, self.dtype))
 
+    def variable(self, i: int, low: np.ndarray, high: np.ndarray) -> tuple[Records, np.ndarray, np.ndarray]:
+        return np.stack([low, high], -1).astype(self.dtype), low, low
+
     def values(self, records: Records, points: np.ndarray, offsets: np.ndarray) -> Balls:
         return [
             [self._value(low, high, t) for t in row] for (low, high), row in zip(records.tolist(), offsets.tolist())
@@ -205,10 +213,18 @@ class TaylorKind(Kind):
         records[:, 1 + self.variables] = bends
         return records
 
+    def variable(self, i: int, low: np.ndarray, high: np.ndarray) -> tuple[Records, np.ndarray, np.ndarray]:
+        center = 0.5 * low + 0.5 * high
+        radius = np.maximum(np.nextafter(high - center, np.inf), np.nextafter(center - low, np.inf))
+        radius = np.where(low == high, 0, radius)
+        records = np.zeros((len(low), self.width))
+        records[:, 0], records[:, 1 + i] = center, radius
+        return records, center, radius
+
     def _polynomials(self, records: Records, points: np.ndarray) -> Balls:
         v = self.variables
         pairs = [(i, i) for i in range(v)] + [(i, j) for i in range(v) for j in range(i + 1, v)]
-        x = [[Ball(c) for c in point] for point in points.tolist()]
+        x = [[Ball(c) for c in point] for point in points]
         monomials = [[Ball(1), *point, *(point[i] * point[j] for i, j in pairs)] for point in x]
         rows = flint.arb_mat(records[:, :-1].tolist()) * flint.arb_mat(monomials).transpose()
         return [[rows[i, j] for j in range(len(points))] for i in range(len(records))]
