@@ -21,7 +21,7 @@ struct Vec3 {
         z = v.z;
         return *this;
     }
-    constexpr Vec3(const T& x_, const T& y_, const T& z_) : x(x_), y(y_), z(z_) {}
+    [[gnu::always_inline]] constexpr Vec3(const T& x_, const T& y_, const T& z_) : x(x_), y(y_), z(z_) {}
     template <class S>
     constexpr explicit Vec3(const Vec3<S>& v)
         : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}

@@ -61,8 +61,8 @@ class Interval {
             return with_float32(ends);
     }
 
-    T inf() const { return 0 - ends_[0]; }  // never -0
-    T sup() const { return ends_[1]; }
+    T inf() const { return 0 - ends_[0]; }  // never -0, as sup
+    T sup() const { return 0 + ends_[1]; }
     bool is_empty() const { return ends_[1] == -infinity<T>; }
     bool is_entire() const { return ends_[0] == infinity<T> && ends_[1] == infinity<T>; }
     bool contains(T x) const { return -ends_[0] <= x && x <= ends_[1] && x - x == 0; }
@@ -181,13 +181,12 @@ class Interval {
     // once. All of them finite means that all ends were.
     template <class Up>
     static Interval of_products(const Interval& a, const Interval& b, Up up) {
-        const Ends zero{}, minus_inf = lanes::every<Ends>(a.ends_[0]), sup = lanes::every<Ends>(a.ends_[1]);
-        const Ends ordered = lanes::negated_first(b.ends_), reversed = swapped(ordered);
-        const Ends first = up(swapped(lanes::negated_first(minus_inf)), minus_inf <= zero ? ordered : reversed);
-        const Ends second = up(lanes::negated_first(sup), sup >= zero ? ordered : reversed);
-        const Ends limit = lanes::every<Ends>(infinity<T>);
-        if (!lanes::all((lanes::magnitude(first) < limit) & (lanes::magnitude(second) < limit))) [[unlikely]]
+        if (!lanes::all_finite(a.ends_ + b.ends_)) [[unlikely]]
             return of_special_products(a, b, up);
+        const Ends zero{}, minus_inf = lanes::every<Ends>(a.ends_[0]), sup = lanes::every<Ends>(a.ends_[1]);
+        const Ends ordered = lanes::flipped(b.ends_, -1, 1), reversed = swapped(ordered);
+        const Ends first = up(lanes::flipped(minus_inf, 1, -1), minus_inf <= zero ? ordered : reversed);
+        const Ends second = up(lanes::flipped(sup, -1, 1), sup >= zero ? ordered : reversed);
         return with_float32(lanes::greater(first, second));
     }
     // 0 times an infinite end is 0: the end is no member.

@@ -17,7 +17,9 @@ inline __m128 load(float x) { return _mm_set1_ps(x); }
 inline __m512d load(Lanes<double, 2> x) { return _mm512_zextpd128_pd512((__m128d)x); }
 inline __m512d load(Lanes<double, 8> x) { return (__m512d)x; }
 inline __m512 load(Lanes<float, 2> x) { return _mm512_zextps128_ps512((__m128)Lanes<float, 4>{x[0], x[1], 0, 0}); }
-inline __m512 load(Lanes<float, 8> x) { return _mm512_zextps256_ps512((__m256)x); }
+inline __m512 load(Lanes<float, 8> x) {
+    return (__m512)_mm512_maskz_insertf64x4(0xff, _mm512_setzero_pd(), (__m256d)x, 0);
+}
 
 template <class V, class Register>
 inline V value(Register x) {

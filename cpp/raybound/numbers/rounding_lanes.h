@@ -21,6 +21,15 @@ struct LanesOf {
 template <class T, int n>
 using Lanes = typename LanesOf<T, n>::type;
 
+// As many doubles as registers hold: compilers split longer vectors badly.
+#if defined(__AVX512F__)
+inline constexpr int native_lanes = 8;
+#elif defined(__AVX__)
+inline constexpr int native_lanes = 4;
+#else
+inline constexpr int native_lanes = 2;
+#endif
+
 namespace lanes {
 
 template <class V>
@@ -69,13 +78,21 @@ inline V magnitude(V x) {
     else
         return std::bit_cast<V>(std::bit_cast<Bits<V>>(x) & std::numeric_limits<Value<Bits<V>>>::max());
 }
-template <class V>
-inline V negated_first(V x) {
-    return std::bit_cast<V>(std::bit_cast<Bits<V>>(x) ^ Bits<V>{std::numeric_limits<Value<Bits<V>>>::min()});
+// x with the signs of the lanes where `signs` is negative flipped.
+template <class V, class... Signs>
+inline V flipped(V x, Signs... signs) {
+    constexpr Value<Bits<V>> sign_bit = std::numeric_limits<Value<Bits<V>>>::min();
+    return std::bit_cast<V>(std::bit_cast<Bits<V>>(x) ^ Bits<V>{(signs < 0 ? sign_bit : 0)...});
 }
 // b where a is NaN.
 template <class V>
 inline V greater(V a, V b) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(V) == 64 && count<V> == 8) return (V)_mm512_maskz_max_pd(0xff, (__m512d)a, (__m512d)b);
+#endif
+#ifdef __SSE2__
+    if constexpr (sizeof(V) == 16 && count<V> == 2) return (V)_mm_max_pd((__m128d)a, (__m128d)b);
+#endif
     return a > b ? a : b;
 }
 
@@ -88,12 +105,16 @@ inline bool all(M mask) {
         return _mm512_movepi64_mask((__m512i)mask) == 0xff;
 #endif
 #ifdef __AVX__
+    else if constexpr (sizeof(M) == 32 && count<M> == 4)
+        return _mm256_movemask_pd((__m256d)mask) == 0xf;
     else if constexpr (sizeof(M) == 32 && count<M> == 8)
         return _mm256_movemask_ps((__m256)mask) == 0xff;
 #endif
 #ifdef __SSE2__
     else if constexpr (sizeof(M) == 16 && count<M> == 2)
         return _mm_movemask_pd((__m128d)mask) == 3;
+    else if constexpr (sizeof(M) == 16 && count<M> == 4)
+        return _mm_movemask_ps((__m128)mask) == 0xf;
 #endif
     else {
         Value<M> each = -1;
@@ -104,6 +125,17 @@ inline bool all(M mask) {
 template <class V>
 inline bool all_between(V x, Value<V> low, Value<V> high) {
     return all((x >= low) & (x < high));
+}
+
+template <class V>
+inline bool all_finite(V x) {
+#ifdef __AVX512DQ__
+    constexpr int not_finite = 0x99;  // quiet and signalling NaN, either infinity
+    if constexpr (sizeof(V) == 64 && count<V> == 8)
+        return _mm512_fpclass_pd_mask((__m512d)x, not_finite) == 0;
+    else
+#endif
+        return all(magnitude(x) < every<V>(std::numeric_limits<Value<V>>::infinity()));
 }
 
 // x where `sign` is positive, else 0. A number is masked as a vector is: its sign cannot be predicted, and compilers
@@ -123,7 +155,7 @@ inline V square_root(V x) {
     if constexpr (count<V> == 1) return std::sqrt(x);
 #ifdef __AVX512F__
     else if constexpr (sizeof(V) == 64 && count<V> == 8)
-        return (V)_mm512_sqrt_pd((__m512d)x);
+        return (V)_mm512_maskz_sqrt_pd(0xff, (__m512d)x);
 #endif
     else {
         V root{};
@@ -150,18 +182,16 @@ inline double product_error(double a, double b, double product) { return std::fm
 inline Lanes<double, 2> product_error(Lanes<double, 2> a, Lanes<double, 2> b, Lanes<double, 2> product) {
     return (Lanes<double, 2>)_mm_fmsub_pd((__m128d)a, (__m128d)b, (__m128d)product);
 }
-inline Lanes<double, 8> product_error(Lanes<double, 8> a, Lanes<double, 8> b, Lanes<double, 8> product) {
-#ifdef __AVX512F__
-    return (Lanes<double, 8>)_mm512_fmsub_pd((__m512d)a, (__m512d)b, (__m512d)product);
-#else
-    struct Halves {
-        __m256d low, high;
-    };
-    const auto x = std::bit_cast<Halves>(a), y = std::bit_cast<Halves>(b), z = std::bit_cast<Halves>(product);
-    return std::bit_cast<Lanes<double, 8>>(
-        Halves{_mm256_fmsub_pd(x.low, y.low, z.low), _mm256_fmsub_pd(x.high, y.high, z.high)});
-#endif
+#ifdef __AVX__
+inline Lanes<double, 4> product_error(Lanes<double, 4> a, Lanes<double, 4> b, Lanes<double, 4> product) {
+    return (Lanes<double, 4>)_mm256_fmsub_pd((__m256d)a, (__m256d)b, (__m256d)product);
 }
+#endif
+#ifdef __AVX512F__
+inline Lanes<double, 8> product_error(Lanes<double, 8> a, Lanes<double, 8> b, Lanes<double, 8> product) {
+    return (Lanes<double, 8>)_mm512_fmsub_pd((__m512d)a, (__m512d)b, (__m512d)product);
+}
+#endif
 template <class V>
 inline bool has_product_error(V, V, V product) {
     return all_between(magnitude(product), 0x1p-960, 0x1p1022);

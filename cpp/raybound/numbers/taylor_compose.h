@@ -31,24 +31,26 @@ inline TaylorModel<N, A> within(const Ends& ends, double roundings) {
 }
 
 // g(a). With D = A_1 + A_2 + [-r, r]: value + first D + half_second D^2 + sixth_third [-1, 1] |D|^3, of which
-// first (A_1 + A_2) + half_second A_1^2 is kept. `ends` is the function's range, which is taken instead where it is
-// narrower than the remainder. The execution's result is off by `roundings` units of roundoff.
-template <int N, Arithmetic A>
-inline TaylorModel<N, A> compose(const TaylorModel<N, A>& a, const Expansion& g, const Ends& ends,
-                                 double roundings = 1) {
-    using Model = TaylorModel<N, A>;
-    const double n1 = a.first_norm(), n2 = a.second_norm(), r = a.remainder(), deviation = a.deviation();
+// first (A_1 + A_2) + half_second A_1^2 is kept. Where the remainder is no smaller than the linear part, the function's
+// range, which `ends()` gives, may say more and is taken instead. The execution's result is off by `roundings` units of
+// roundoff.
+template <int N, Arithmetic A, class RangeEnds>
+inline TaylorModel<N, A> compose(const TaylorModel<N, A>& a, const Expansion& g, RangeEnds ends, double roundings = 1) {
+    const double n1 = a.first_norm(), n2 = a.second_norm(), r = a.remainder(), known = n1 + n2, deviation = known + r;
     const double first = std::abs(g.first), half_second = std::abs(g.half_second), squares = n1 * n1;
-    const double cut = first * r + half_second * (n2 * (2 * n1 + n2) + r * (2 * (n1 + n2) + r)) +
-                       g.sixth_third * (deviation * deviation * deviation);
-    const double rounding = 0x1p-49 * (std::abs(g.value) + first * (n1 + n2) + half_second * squares) + g.value_error +
-                            g.first_error * (n1 + n2) + g.half_second_error * squares;
-    const double remainder = cut + rounding + underflow_bound;
-    if (!(remainder < 0.5 * (ends.high - ends.low))) return within<N, A>(ends, roundings);
-    TaylorPolynomial<N> polynomial =
-        a.polynomial().without_constant() * g.first + linear_product(a.polynomial(), a.polynomial()) * g.half_second;
+    const double rounding = (0x1p-49 * (std::abs(g.value) + first * known + half_second * squares) + g.value_error) +
+                            (g.first_error * known + g.half_second_error * squares) + underflow_bound;
+    const double cut = half_second * (n2 * (2 * n1 + n2)) + rounding;
+    const double remainder =
+        first * r + half_second * (r * (2 * known + r)) + (cut + g.sixth_third * (deviation * deviation * deviation));
+    if (!(remainder < 0.5 * (first * known))) [[unlikely]] {
+        const Ends range = ends();
+        if (!(remainder < 0.5 * (range.high - range.low))) return within<N, A>(range, roundings);
+    }
+    TaylorPolynomial<N> polynomial = a.polynomial().without_constant() * g.first;
+    add_linear_product(polynomial, a.polynomial(), a.polynomial(), g.half_second);
     polynomial.part[0][0] = g.value;
-    return Model::executed(polynomial, remainder, roundings);
+    return TaylorModel<N, A>::executed(polynomial, remainder, roundings);
 }
 
 }  // namespace raybound

@@ -135,32 +135,33 @@ struct TaylorPolynomial {
     }
 };
 
-// The products of the linear parts of a and b, which are of degree 2.
+// Adds the products of the linear parts of a and b, times `factor`, which are of degree 2.
 template <int N>
-RAYBOUND_INLINE TaylorPolynomial<N> linear_product(const TaylorPolynomial<N>& a, const TaylorPolynomial<N>& b) {
+RAYBOUND_INLINE void add_linear_product(TaylorPolynomial<N>& sum, const TaylorPolynomial<N>& a,
+                                        const TaylorPolynomial<N>& b, double factor) {
     using four::permute;
-    TaylorPolynomial<N> product;
     if constexpr (N == 2) {
-        const Four la = a.part[0], lb = b.part[0];
-        product.part[1] =
-            permute<1, 2, 1, 3>(la) * permute<1, 2, 2, 3>(lb) + permute<3, 3, 2, 3>(la) * permute<3, 3, 1, 3>(lb);
+        const Four la = a.part[0] * factor, lb = b.part[0];
+        sum.part[1] = sum.part[1] + (permute<1, 2, 1, 3>(la) * permute<1, 2, 2, 3>(lb) +
+                                     permute<3, 3, 2, 3>(la) * permute<3, 3, 1, 3>(lb));
     } else {
-        const Four la = a.part[1], lb = b.part[1];
-        product.part[0] = four::keep(
-            permute<0, 0, 2, 0>(la) * permute<0, 1, 3, 0>(lb) + permute<0, 1, 3, 0>(la) * permute<0, 0, 2, 0>(lb),
-            four::middle);
-        product.part[2] = la * lb;
-        product.part[3] =
-            permute<0, 1, 0, 1>(la) * permute<2, 3, 3, 2>(lb) + permute<2, 3, 3, 2>(la) * permute<0, 1, 0, 1>(lb);
+        const Four la = a.part[1] * factor, lb = b.part[1];
+        sum.part[0] = sum.part[0] + four::keep(permute<0, 0, 2, 0>(la) * permute<0, 1, 3, 0>(lb) +
+                                                   permute<0, 1, 3, 0>(la) * permute<0, 0, 2, 0>(lb),
+                                               four::middle);
+        sum.part[2] = sum.part[2] + la * lb;
+        sum.part[3] = sum.part[3] + (permute<0, 1, 0, 1>(la) * permute<2, 3, 3, 2>(lb) +
+                                     permute<2, 3, 3, 2>(la) * permute<0, 1, 0, 1>(lb));
     }
-    return product;
 }
 
 // All of the product up to degree 2. Of the sum of absolute values of what is added up here, which is at most
 // (|a0| + |A1| + |A2|)(|b0| + |B1| + |B2|), each coefficient is off by at most gamma_5.
 template <int N>
 RAYBOUND_INLINE TaylorPolynomial<N> product(const TaylorPolynomial<N>& a, const TaylorPolynomial<N>& b) {
-    return b * a.constant() + a.without_constant() * b.constant() + linear_product(a, b);
+    TaylorPolynomial<N> product = b * a.constant() + a.without_constant() * b.constant();
+    add_linear_product(product, a, b, 1);
+    return product;
 }
 
 }  // namespace raybound

@@ -50,20 +50,28 @@ class TaylorModel {
 
     TaylorModel() = default;
     RAYBOUND_INLINE TaylorModel(const TaylorModel& o)
-        : polynomial_(o.polynomial_), first_(o.first_), second_(o.second_), remainder_(o.remainder_) {}
+        : polynomial_(o.polynomial_),
+          first_(o.first_),
+          second_(o.second_),
+          known_(o.known_),
+          remainder_(o.remainder_) {}
     RAYBOUND_INLINE TaylorModel& operator=(const TaylorModel& o) {
         polynomial_ = o.polynomial_;
         first_ = o.first_;
         second_ = o.second_;
+        known_ = o.known_;
         remainder_ = o.remainder_;
         return *this;
     }
-    explicit TaylorModel(double constant) { polynomial_.part[0] = Four{constant, 0, 0, 0}; }
+    explicit TaylorModel(double constant) : known_(std::abs(constant)) {
+        polynomial_.part[0] = Four{constant, 0, 0, 0};
+    }
     // The variable x_i: center + radius x_i.
     static TaylorModel variable(int i, double center, double radius) {
         TaylorModel x(center);
         x.polynomial_.set(TaylorLayout<N>::linear(i), radius);
         x.first_ = std::abs(radius);
+        x.known_ += x.first_;
         return x;
     }
     static TaylorModel entire() {
@@ -74,9 +82,14 @@ class TaylorModel {
     // The same function for an execution in another arithmetic; into float32 it is rounded once.
     template <Arithmetic B>
     RAYBOUND_INLINE explicit TaylorModel(const TaylorModel<N, B>& x)
-        : polynomial_(x.polynomial()), first_(x.first_norm()), second_(x.second_norm()), remainder_(x.remainder()) {
+        : polynomial_(x.polynomial()),
+          first_(x.first_norm()),
+          second_(x.second_norm()),
+          known_(x.known()),
+          remainder_(x.remainder()) {
         if constexpr (A == Arithmetic::float32 && B == Arithmetic::float64)
-            remainder_ = (remainder_ + (Run::unit_roundoff * magnitude() + Run::underflow)) * upward;
+            remainder_ =
+                (remainder_ + (Run::unit_roundoff * known_ + Run::underflow)) * ((1 + Run::unit_roundoff) * upward);
         if constexpr (Run::largest < Execution<B>::largest)
             if (!(magnitude() < Run::largest)) [[unlikely]]
                 forget();
@@ -90,9 +103,10 @@ class TaylorModel {
     double remainder() const { return remainder_; }
     double first_norm() const { return first_; }    // |A_1| = sum |l_i|
     double second_norm() const { return second_; }  // |A_2| = sum |q_i| + sum |x_ij|
+    double known() const { return known_; }         // |c| + |A_1| + |A_2|
     // Bounds of |f - c| and |f|.
     RAYBOUND_INLINE double deviation() const { return first_ + second_ + remainder_; }
-    RAYBOUND_INLINE double magnitude() const { return std::abs(constant()) + deviation(); }
+    RAYBOUND_INLINE double magnitude() const { return known_ + remainder_; }
     bool is_known() const { return remainder_ < std::numeric_limits<double>::infinity(); }
     bool is_constant() const { return deviation() == 0; }
     // Ends of the range, rounded outward.
@@ -106,114 +120,113 @@ class TaylorModel {
         result.polynomial_ = polynomial;
         result.first_ = first;
         result.second_ = second;
+        result.known_ = std::abs(polynomial.constant()) + (first + second);
         result.remainder_ = remainder;
         return result.magnitude() < Run::largest ? result : entire();
     }
     // A model from coefficients and a bound of everything that was left out, computed upward but for the last factor.
     RAYBOUND_INLINE static TaylorModel certified(const Polynomial& polynomial, double remainder) {
-        return finished(polynomial, remainder, false);
+        return finished(polynomial, remainder, 0, 0, 0);
     }
-    // The same for the result of an operation, which the execution rounds.
-    RAYBOUND_INLINE static TaylorModel executed(const Polynomial& polynomial, double remainder) {
-        return finished(polynomial, remainder, true);
-    }
-    // ... and for one of which the execution's result is off by several roundings.
-    RAYBOUND_INLINE static TaylorModel executed(const Polynomial& polynomial, double remainder, double roundings) {
-        return finished(polynomial, remainder, true, roundings);
+    // The same for the result of an operation, which an execution rounds; a function of several may be off by as many
+    // `roundings`.
+    RAYBOUND_INLINE static TaylorModel executed(const Polynomial& polynomial, double remainder, double roundings = 1) {
+        return finished(polynomial, remainder, 0, Run::unit_roundoff * roundings, Run::underflow * roundings);
     }
 
-    friend TaylorModel operator+(const TaylorModel& a, const TaylorModel& b) {
-        const Polynomial sum = a.polynomial_ + b.polynomial_;
-        return summed(sum, a.remainder_ + b.remainder_);
+    RAYBOUND_INLINE friend TaylorModel operator+(const TaylorModel& a, const TaylorModel& b) {
+        return summed(a.polynomial_ + b.polynomial_, a.remainder_ + b.remainder_);
     }
-    friend TaylorModel operator-(const TaylorModel& a, const TaylorModel& b) {
+    RAYBOUND_INLINE friend TaylorModel operator-(const TaylorModel& a, const TaylorModel& b) {
         return summed(a.polynomial_ - b.polynomial_, a.remainder_ + b.remainder_);
     }
-    friend TaylorModel operator-(const TaylorModel& a) {
+    RAYBOUND_INLINE friend TaylorModel operator-(const TaylorModel& a) {
         TaylorModel negated = a;
         negated.polynomial_ = Polynomial{} - a.polynomial_;
         return negated;
     }
-    friend TaylorModel operator*(const TaylorModel& a, const TaylorModel& b) {
+    RAYBOUND_INLINE friend TaylorModel operator*(const TaylorModel& a, const TaylorModel& b) {
         if (b.first_ + b.second_ == 0) return scaled(a, b);
         if (a.first_ + a.second_ == 0) return scaled(b, a);
-        return executed(product(a.polynomial_, b.polynomial_), product_remainder(a, b));
+        return product_of(a, b);
+    }
+    RAYBOUND_INLINE static TaylorModel product_of(const TaylorModel& a, const TaylorModel& b) {
+        return finished(product(a.polynomial_, b.polynomial_), product_remainder(a, b),
+                        product_cut(a, b) + (0x1p-50 * (a.known_ * b.known_) + underflow_bound), Run::unit_roundoff,
+                        Run::underflow);
     }
 
     // a b + c d + e f and a b - c d, of which an execution rounds each product and each sum. A product's bound stands
     // for its range: |a b| <= |a| |b|.
     friend TaylorModel sum_of_products(const TaylorModel& a, const TaylorModel& b, const TaylorModel& c,
                                        const TaylorModel& d, const TaylorModel& e, const TaylorModel& f) {
-        const double ab = a.magnitude() * b.magnitude(), cd = c.magnitude() * d.magnitude(),
-                     ef = e.magnitude() * f.magnitude();
-        const double cut = product_cut(a, b) + product_cut(c, d) + product_cut(e, f);
+        const double ab = a.known_ * b.known_, cd = c.known_ * d.known_, ef = e.known_ * f.known_;
         return fused(product(a.polynomial_, b.polynomial_) + product(c.polynomial_, d.polynomial_) +
                          product(e.polynomial_, f.polynomial_),
-                     cut, ab + cd + ef, (ab + cd) * 2 + ef);
+                     product_remainder(a, b) + product_remainder(c, d) + product_remainder(e, f),
+                     product_cut(a, b) + product_cut(c, d) + product_cut(e, f), ab + cd + ef, (ab + cd) * 2 + ef);
     }
-    friend TaylorModel difference_of_products(const TaylorModel& a, const TaylorModel& b, const TaylorModel& c,
-                                              const TaylorModel& d) {
-        const double ab = a.magnitude() * b.magnitude(), cd = c.magnitude() * d.magnitude();
+    RAYBOUND_INLINE friend TaylorModel difference_of_products(const TaylorModel& a, const TaylorModel& b,
+                                                              const TaylorModel& c, const TaylorModel& d) {
+        const double sizes = a.known_ * b.known_ + c.known_ * d.known_;
         return fused(product(a.polynomial_, b.polynomial_) - product(c.polynomial_, d.polynomial_),
-                     product_cut(a, b) + product_cut(c, d), ab + cd, ab + cd);
-    }
-
-    // What the polynomials' product leaves out, and what rounding it may have changed.
-    RAYBOUND_INLINE static double product_cut(const TaylorModel& a, const TaylorModel& b) {
-        const double a_known = std::abs(a.constant()) + a.first_ + a.second_;
-        return a.first_ * b.second_ + a.second_ * (b.first_ + b.second_) + a.remainder_ * b.magnitude() +
-               b.remainder_ * a_known;
-    }
-    // ... and what rounding it may have changed.
-    RAYBOUND_INLINE static double product_remainder(const TaylorModel& a, const TaylorModel& b) {
-        return product_cut(a, b) + (0x1p-50 * (a.magnitude() * b.magnitude()) + underflow_bound);
+                     product_remainder(a, b) + product_remainder(c, d), product_cut(a, b) + product_cut(c, d), sizes,
+                     sizes);
     }
 
   private:
-    RAYBOUND_INLINE double rounding() const { return 0x1p-52 * (std::abs(constant()) + deviation()) + underflow_bound; }
+    RAYBOUND_INLINE double rounding() const { return 0x1p-52 * magnitude() + underflow_bound; }
 
+    // What a product of polynomials leaves out, and what it makes of the factors' remainders.
+    RAYBOUND_INLINE static double product_cut(const TaylorModel& a, const TaylorModel& b) {
+        return a.first_ * b.second_ + a.second_ * (b.first_ + b.second_);
+    }
+    RAYBOUND_INLINE static double product_remainder(const TaylorModel& a, const TaylorModel& b) {
+        return a.remainder_ * b.known_ + b.remainder_ * (a.known_ + a.remainder_);
+    }
     // a times a number that is the same everywhere, up to its remainder.
     RAYBOUND_INLINE static TaylorModel scaled(const TaylorModel& a, const TaylorModel& s) {
-        const double factor = std::abs(s.constant()), size = a.magnitude();
-        return executed(a.polynomial_ * s.constant(),
-                        a.remainder_ * factor + size * s.remainder_ + (0x1p-53 * size * factor + underflow_bound));
+        return finished(a.polynomial_ * s.constant(), product_remainder(a, s),
+                        0x1p-53 * (a.known_ * s.known_) + underflow_bound, Run::unit_roundoff, Run::underflow);
     }
     // A sum of products: `sizes` bounds the sum of what was multiplied, `intermediate` the sum of what an execution
-    // rounds before its last sum. Coefficients are off by at most gamma_7 of `sizes`.
-    RAYBOUND_INLINE static TaylorModel fused(const Polynomial& sum, double cut, double sizes, double intermediate) {
-        const double rounding = 0x1p-49 * sizes + underflow_bound;
-        return executed(sum, cut + rounding + Run::unit_roundoff * intermediate + 5 * Run::underflow);
+    // rounds before its last sum; it does so at most four times to anything, and once more to its own roundings.
+    // Coefficients are off by at most gamma_7 of `sizes`.
+    RAYBOUND_INLINE static TaylorModel fused(const Polynomial& sum, double remainder, double cut, double sizes,
+                                             double intermediate) {
+        constexpr double u = Run::unit_roundoff;
+        const double rest =
+            cut + (0x1p-49 * sizes + u * (1 + 8 * u) * intermediate) + (underflow_bound + 5 * Run::underflow);
+        TaylorModel result = finished(sum, remainder * (1 + 3 * u), rest, u, 0);
+        if (!(sizes + result.remainder_ < Run::largest)) [[unlikely]]
+            result.forget();  // the execution's products may overflow where their sum does not
+        return result;
     }
     // A sum's coefficients have one rounding each, of the result; nothing underflows.
     RAYBOUND_INLINE static TaylorModel summed(const Polynomial& sum, double remainder) {
-        const auto [first, second] = sum.norms();
-        const double known = std::abs(sum.constant()) + first + second;
-        return finished(sum, first, second, known, remainder + 0x1p-53 * known, Run::unit_roundoff, 0);
+        return finished(sum, remainder, 0, Run::unit_roundoff, 0, 0x1p-53);
     }
-    RAYBOUND_INLINE static TaylorModel finished(const Polynomial& polynomial, double remainder, bool rounds,
-                                                double roundings = 1) {
-        const auto [first, second] = polynomial.norms();
-        const double known = std::abs(polynomial.constant()) + first + second;
-        const double relative = rounds ? Run::unit_roundoff * roundings : 0;
-        return finished(polynomial, first, second, known, remainder, relative, rounds ? Run::underflow * roundings : 0);
-    }
-    RAYBOUND_INLINE static TaylorModel finished(const Polynomial& polynomial, double first, double second, double known,
-                                                double remainder, double relative, double absolute) {
-        if constexpr (Run::unit_roundoff > 0) remainder += relative * (known + remainder) + absolute;
-        remainder *= upward;
+    // The bound is (remainder + rest + own |polynomial|) plus `relative` of all and `absolute`. What depends on other
+    // remainders stands apart: it is what the next operation waits for.
+    RAYBOUND_INLINE static TaylorModel finished(const Polynomial& polynomial, double remainder, double rest,
+                                                double relative, double absolute, double own = 0) {
         TaylorModel result;
         result.polynomial_ = polynomial;
+        const auto [first, second] = polynomial.norms();
+        const double known = std::abs(polynomial.constant()) + (first + second);
+        const double added = rest + ((relative + own) * known + absolute), factor = (1 + relative) * upward;
         result.first_ = first;
         result.second_ = second;
-        result.remainder_ = remainder;
-        if (!(known + remainder < Run::largest)) [[unlikely]]
+        result.known_ = known;
+        result.remainder_ = (remainder + added) * factor;
+        if (!(known + result.remainder_ < Run::largest)) [[unlikely]]
             result.forget();  // NaN too
         return result;
     }
     [[gnu::noinline]] void forget() { *this = entire(); }
 
     Polynomial polynomial_;
-    double first_ = 0, second_ = 0, remainder_ = 0;
+    double first_ = 0, second_ = 0, known_ = 0, remainder_ = 0;  // known_: |c| + first_ + second_
 };
 
 // All of them may run their kernels; what float64 decides, float32 shades.

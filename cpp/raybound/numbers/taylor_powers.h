@@ -34,10 +34,11 @@ inline TaylorModel<N, A> inverse_power(const TaylorModel<N, A>& a, int n, const 
     const double sixth_third =
         n * (n + 1.0) * (n + 2.0) * (1.0 / 6) / (power(least, n) * (least * least * least)) * (1 + error) * upward;
     const double low = 1 / powers.high, high = 1 / powers.low;
+    const auto ends = [&] { return Ends{low - 0x1p-52 * std::abs(low), high + 0x1p-52 * std::abs(high)}; };
     return compose(a,
                    {value, error * std::abs(value), first, half_second, sixth_third, error * std::abs(first),
                     error * std::abs(half_second)},
-                   {low - 0x1p-52 * std::abs(low), high + 0x1p-52 * std::abs(high)}, 2 * n + 1);
+                   ends, 2 * n + 1);
 }
 
 }  // namespace taylor
@@ -50,14 +51,15 @@ inline TaylorModel<N, A> power(const TaylorModel<N, A>& a, int n) {
     const double low = a.low(), high = a.high(), c = a.constant(), largest = std::fmax(-low, high);
     if (n < 0) {
         const Ends powers = taylor::power_ends(low, high, -n);
-        const bool is_smooth = (low > 0 || high < 0) && is_tame(powers.low) && is_tame(powers.high) && is_tame(c);
-        return is_smooth ? taylor::inverse_power(a, -n, powers) : reciprocal(power(a, -n));
+        const bool is_tamed = is_tame(powers.low) && is_tame(powers.high) && is_tame(c);
+        if (n < -1 && (low > 0 || high < 0) && is_tamed) return taylor::inverse_power(a, -n, powers);
+        return reciprocal(power(a, -n));
     }
     if (n <= 2) return n == 0 ? Model(1) : n == 1 ? a : square(a);
-    const Ends ends = taylor::power_ends(low, high, n);
+    const auto ends = [&] { return taylor::power_ends(low, high, n); };
     const double tail = taylor::power(c, n - 2), value = tail * c * c;
     const double third = taylor::power(largest, n - 3) * (1 + n * 0x1p-51);
-    if (!is_tame(tail) || !is_tame(value) || !is_tame(third)) return within<N, A>(ends, 2 * n);
+    if (!is_tame(tail) || !is_tame(value) || !is_tame(third)) return within<N, A>(ends(), 2 * n);
     const double error = n * 0x1p-52, first = n * tail * c, half_second = 0.5 * n * (n - 1) * tail;
     const double sixth_third = n * (n - 1.0) * (n - 2.0) * (1.0 / 6) * third * upward;
     return compose(a,
@@ -83,7 +85,7 @@ inline TaylorModel<N, A> ward_lobe(const TaylorModel<N, A>& cosine, double sigma
     const double farthest = std::fmax(-low, high);
     if (!(is_tame(farthest) && is_tame(s2) && exponent(farthest) < 600)) return TaylorModel<N, A>::entire();
     if (!(low > 0x1p-20)) return within<N, A>({0, lobe(farthest).sup}, 2);
-    const Range at = lobe(x), first_end = lobe(low), last_end = lobe(high);
+    const Range at = lobe(x);
     const double value = taylor::middle(at), x2 = 1 / (x * x), slope = 2 * x2 / (x * s2);
     const double half_second = 0.5 * (slope * slope - 6 * x2 * x2 / s2);
     double third = 0;
@@ -97,10 +99,11 @@ inline TaylorModel<N, A> ward_lobe(const TaylorModel<N, A>& cosine, double sigma
     }
     const double relative = (at.sup - at.inf) + 0x1p-48 * value;  // of the value, and so of the derivatives
     const double magnitude = slope * slope + 6 * x2 * x2 / s2;
-    return compose(cosine,
-                   {value, at.sup - at.inf, slope * value, half_second * value, third * (1.0 / 6) * upward,
-                    relative * slope, relative * magnitude},
-                   {first_end.inf, last_end.sup}, 2);
+    return compose(
+        cosine,
+        {value, at.sup - at.inf, slope * value, half_second * value, third * (1.0 / 6) * upward, relative * slope,
+         relative * magnitude},
+        [&] { return Ends{lobe(low).inf, lobe(high).sup}; }, 2);
 }
 
 }  // namespace raybound

@@ -84,6 +84,7 @@ inline TaylorModel<N, A> maximum(const TaylorModel<N, A>& a, const TaylorModel<N
 }
 template <int N, Arithmetic A>
 inline TaylorModel<N, A> minimum(const TaylorModel<N, A>& a, const TaylorModel<N, A>& b) {
+    if (b.is_constant() && a.magnitude() * upward < b.constant()) return a;  // as where radiance is saturated
     const Verdict less = b < a;
     if (less != Verdict::unknown) return less == Verdict::yes ? b : a;
     using Real = TaylorModel<N, Arithmetic::real>;
