@@ -29,7 +29,7 @@ export RAYBOUND_BENCH := $(abspath ../shared/bench)
 endif
 endif
 
-.PHONY: help build fmt lint test notebooks soak bench bench-embree demo wheel levels sanitize sabotage clean
+.PHONY: help build fmt lint test notebooks soak bench bench-embree bench-error demo wheel levels sanitize sabotage clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -97,6 +97,9 @@ bench: $(VENV)/stamp-build $(VENV)/stamp-mesh ## Measure the base tracer's speed
 
 bench-embree: $(VENV)/stamp-build $(VENV)/stamp-mesh $(VENV)/stamp-bench ## Measure speed beside Embree's (needs libembree-dev)
 	$(PY) -m raybound bench embree $(ARGS)
+
+bench-error: $(VENV)/stamp-build $(VENV)/stamp-plot ## Measure speed against error on hard cases; ARGS="--plot error.png" draws it
+	$(PY) -m raybound bench error $(ARGS)
 
 demo: $(VENV)/stamp-build ## Render the walk-through to ./out
 	$(PY) -m raybound demo $(ARGS)

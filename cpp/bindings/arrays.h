@@ -99,7 +99,12 @@ inline Watch watcher(const py::object& progress) {
 
 void register_numbers(py::module_& m);
 void register_number_kinds(py::module_& m);
+void register_cells(py::module_& m);
+void register_running_errors(py::module_& m);
+void register_linear_intervals(py::module_& m);
 void register_elementary_ranges(py::module_& m);
+void register_intervals(py::module_& m);
+void register_number_bench(py::module_& m);
 void register_transforms(py::module_& m);
 void register_shapes(py::module_& m);
 void register_materials(py::module_& m);

@@ -19,7 +19,12 @@ PYBIND11_MODULE(RAYBOUND_MODULE, m) {
     m.doc() = "The raw engine of raybound; the public interface is the package raybound.";
     register_numbers(m);
     register_number_kinds(m);
+    register_cells(m);
+    register_running_errors(m);
+    register_linear_intervals(m);
     register_elementary_ranges(m);
+    register_intervals(m);
+    register_number_bench(m);
     register_transforms(m);
     register_shapes(m);
     register_materials(m);

@@ -43,6 +43,8 @@ py::dict kinds() {
 void register_number_kinds(py::module_& m) {
     register_float_kinds();
     register_interval_kinds(m);
+    register_running_error_kinds();
+    register_linear_kinds();
     register_taylor_kinds(m);
     m.def("number_kinds", &kinds, "Each kind of number: the width of its records and its operations.");
     m.def("apply", &apply, "kind"_a, "operation"_a, "operands"_a, "parameter"_a = 0.0,

@@ -61,12 +61,22 @@ py::array apply_to_records(const std::vector<py::array>& arrays, Function f) {
     return out;
 }
 
+// The same for what is no operation of the type: rows of `from` values give rows of `to`.
+template <class Value, int from, int to, class Function>
+py::array apply_to_rows(const std::vector<py::array>& arrays, Function f) {
+    if (arrays.size() != 1) throw std::invalid_argument("apply: wrong number of operands");
+    const auto in = py::array_t<Value, py::array::c_style | py::array::forcecast>::ensure(arrays[0]);
+    const py::ssize_t n = in.size() / from;
+    py::array_t<Value> out({n, py::ssize_t(to)});
+    for (py::ssize_t i = 0; i < n; ++i) f(in.data() + i * from, out.mutable_data() + i * to);
+    return out;
+}
+
 // All operations of operations.h for one number type.
 template <class T>
 void register_kind(const std::string& name) {
     NumberKind& kind = number_kinds()[name];
     kind.width = Record<T>::width;
-    using Parameter = std::conditional_t<std::floating_point<T>, T, double>;
     operations::for_each(operations::unary, [&](const auto& operation) {
         kind.operations[operation.name] = [f = operation.apply](const std::vector<py::array>& a, double) {
             return apply_to_records<T, 1>(a, [f](const auto& x) { return T(f(x[0])); });
@@ -84,13 +94,15 @@ void register_kind(const std::string& name) {
     });
     operations::for_each(operations::parametric, [&](const auto& operation) {
         kind.operations[operation.name] = [f = operation.apply](const std::vector<py::array>& a, double parameter) {
-            return apply_to_records<T, 1>(a, [f, p = Parameter(parameter)](const auto& x) { return T(f(x[0], p)); });
+            return apply_to_records<T, 1>(a, [f, parameter](const auto& x) { return T(f(x[0], parameter)); });
         };
     });
 }
 
 void register_float_kinds();
 void register_interval_kinds(py::module_& m);
+void register_running_error_kinds();
+void register_linear_kinds();
 void register_taylor_kinds(py::module_& m);
 
 }  // namespace raybound::python

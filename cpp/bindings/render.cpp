@@ -1,6 +1,7 @@
 #include "raybound/frame/render.h"
 
 #include "bindings/arrays.h"
+#include "bindings/offsets.h"
 #include "raybound/frame/query.h"
 
 namespace raybound::python {
@@ -94,6 +95,21 @@ py::tuple primary_hits_tuple(const Snapshot& scene, const Camera& camera, int th
     return py::make_tuple(found.hits, found.seconds);
 }
 
+py::dict bounces(const Snapshot& scene, const Doubles& origins, const Doubles& directions, const std::string& precision,
+                 const std::string& offsets, bool skips) {
+    const auto o = to_vectors<double>(origins), d = to_vectors<double>(directions);
+    if (o.size() != d.size()) throw std::invalid_argument("trace_bounces: as many origins as directions are wanted");
+    const Leaving leaving{offsets_named("trace_bounces", offsets), skips};
+    Bounces counts;
+    {
+        const py::gil_scoped_release released;
+        counts = precision == "float32" ? trace_bounces<float>(scene, o, d, leaving)
+                                        : trace_bounces<double>(scene, o, d, leaving);
+    }
+    return py::dict("rays"_a = counts.rays, "hits"_a = counts.hits, "blocked"_a = counts.blocked,
+                    "radiance"_a = counts.radiance, "seconds"_a = counts.seconds);
+}
+
 py::tuple tuple_of(const Vec3d& v) { return py::make_tuple(v.x, v.y, v.z); }
 
 py::dict tree_dict(const RayTreeNode& node) {
@@ -146,6 +162,8 @@ void register_render(py::module_& m) {
           "progress"_a);
     m.def("closest_hits", &closest_hits_dict, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "threads"_a);
     m.def("primary_hits", &primary_hits_tuple, "snapshot"_a, "camera"_a, py::kw_only(), "threads"_a);
+    m.def("trace_bounces", &bounces, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "precision"_a,
+          "offsets"_a, "skips"_a);
     m.def("explain", &explain, "snapshot"_a, "camera"_a, "x"_a, "y"_a, "max_depth"_a);
 }
 

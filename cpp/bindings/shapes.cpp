@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "bindings/arrays.h"
+#include "bindings/offsets.h"
 #include "raybound/frame/query.h"
 #include "raybound/shapes/mesh.h"
 
@@ -13,27 +14,19 @@ std::vector<Vec3d> doubles(const Doubles& a) {
     return {v.begin(), v.end()};
 }
 
-Offsets offsets_named(const std::string& name) {
-    if (name == "bounded") return Offsets::bounded;
-    if (name == "epsilon") return Offsets::epsilon;
-    if (name == "scaled-epsilon") return Offsets::scaled_epsilon;
-    throw std::invalid_argument("intersect: offsets must be 'bounded', 'epsilon' or 'scaled-epsilon', got '" + name +
-                                "'");
-}
-
 py::array_t<ShapeHitRecord> intersect(const ShapePointer& shape, const Doubles& origins, const Doubles& directions,
-                                      const std::string& precision, const std::string& offsets) {
+                                      const std::string& precision, const std::string& offsets, bool inward) {
     if (precision != "float32" && precision != "float64")
         throw std::invalid_argument("intersect: precision must be 'float32' or 'float64', got '" + precision + "'");
     const std::vector<Vec3d> o = doubles(origins), d = doubles(directions);
     if (o.size() != d.size()) throw std::invalid_argument("intersect: origins and directions must have the same shape");
-    const Offsets policy = offsets_named(offsets);
+    const Offsets policy = offsets_named("intersect", offsets);
     std::vector<ShapeHitRecord> records;
     const py::object silent = py::none();
     {
         const py::gil_scoped_release released;
-        records = precision == "float32" ? intersect_shape<float>(*shape, o, d, policy, watcher(silent))
-                                         : intersect_shape<double>(*shape, o, d, policy, watcher(silent));
+        records = precision == "float32" ? intersect_shape<float>(*shape, o, d, policy, inward, watcher(silent))
+                                         : intersect_shape<double>(*shape, o, d, policy, inward, watcher(silent));
     }
     return from_vector(records);
 }
@@ -139,8 +132,8 @@ void register_shapes(py::module_& m) {
     m.def(
         "intersect_shape",
         [](const std::shared_ptr<Shape>& shape, const Doubles& o, const Doubles& d, const std::string& precision,
-           const std::string& offsets) { return intersect(shape, o, d, precision, offsets); },
-        "shape"_a, "origins"_a, "directions"_a, "precision"_a, "offsets"_a);
+           const std::string& offsets, bool inward) { return intersect(shape, o, d, precision, offsets, inward); },
+        "shape"_a, "origins"_a, "directions"_a, "precision"_a, "offsets"_a, "inward"_a = false);
 }
 
 }  // namespace raybound::python

@@ -27,6 +27,8 @@ from .mesh_file import load_mesh
 from .meshes import Mesh
 from .numbers import (
     Interval,
+    LinearInterval,
+    RunningError,
     TaylorModel,
     abs,
     acos,
@@ -70,6 +72,7 @@ __all__ = [
     "Intersection",
     "Interval",
     "LightHandle",
+    "LinearInterval",
     "Material",
     "Mesh",
     "Object",
@@ -79,6 +82,7 @@ __all__ = [
     "Quadric",
     "Reason",
     "Renderer",
+    "RunningError",
     "Scene",
     "Shape",
     "Sphere",

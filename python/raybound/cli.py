@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import json
 import sys
 from collections.abc import Sequence
@@ -17,6 +18,14 @@ from .scene import Scene
 from .scene_file import camera_from_dict, load_scene
 from .tolerance import Tolerance
 
+PLOTS = (".png", ".svg", ".pdf")
+PICTURE = "1200 x 900 pixels, one thread"  # of bench embree
+SMALL = "small pictures of hard cases, one thread"
+FIXED: dict[str, dict[str, str]] = {  # by bench, what cannot be chosen, and what it is
+    "base": {},
+    "embree": dict.fromkeys(("width", "height", "threads"), PICTURE),
+    "error": {**dict.fromkeys(("width", "height", "threads"), SMALL), "triangles": "it has its own meshes"},
+}
 READY = {"museum": False, "three_spheres": False, "sphereflake": True}  # whether a number follows, as in sphereflake:4
 
 
@@ -37,7 +46,7 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("--height", type=int, default=450, help="of the walk-through's frames, pixels (default 450)")
     demo.add_argument("--out", default="out", help="folder for pictures and statistics (default ./out)")
     demo.set_defaults(run=_demo)
-    _add_bench(commands.add_parser("bench", help="measure speed"))
+    _add_bench(commands.add_parser("bench", help="measure speed, and error"))
     return parser
 
 
@@ -62,19 +71,24 @@ def _add_render(render: argparse.ArgumentParser) -> None:
 
 
 def _add_bench(bench: argparse.ArgumentParser) -> None:
-    what = "base: the base tracer (default); embree: beside Embree, one thread"
-    bench.add_argument("what", nargs="?", choices=["base", "embree"], default="base", help=what)
+    what = (
+        "base: the base tracer (default); embree: beside Embree, one thread; error: speed against error on hard cases"
+    )
+    bench.add_argument("what", nargs="?", choices=["base", "embree", "error"], default="base", help=what)
     bench.add_argument("--width", type=int, help="of base, pixels (default 1200)")
     bench.add_argument("--height", type=int, help="of base, pixels (default 900)")
     bench.add_argument("--threads", help="of base, numbers of threads (default 1,2)")
     bench.add_argument(
-        "--repeat", type=int, help="runs to take the median of, or rounds to take the best of (default 5)"
+        "--repeat", type=int, help="runs to take the median of, or rounds to take the best of (default 5; error: 9)"
     )
-    bench.add_argument("--scenes", help="their names, with commas (default all)")
+    bench.add_argument("--scenes", help="their names, with commas; of error, hard cases (default all)")
     bench.add_argument("--triangles", type=int, help="of the mesh (default 1000000)")
-    bench.add_argument("--rays", type=int, help="scattered at the mesh (default 1000000)")
+    bench.add_argument(
+        "--rays", type=int, help="scattered at the mesh (default 1000000); of error, at a shape (default 32)"
+    )
     bench.add_argument("--json", metavar="FILE", help="write the measurements to a file, too")
     bench.add_argument("--markdown", action="store_true", help="print the tables in Markdown")
+    bench.add_argument("--plot", metavar="FILE", help="of error, draw speed against error (.png, .svg, .pdf)")
     readme = "put the tables into the block <!-- bench WHAT --> of a Markdown file (default README.md)"
     bench.add_argument("--readme", nargs="?", const="README.md", metavar="FILE", help=readme)
     bench.set_defaults(run=_bench)
@@ -146,14 +160,13 @@ def _demo(options: argparse.Namespace) -> None:
 
 
 def _bench(options: argparse.Namespace) -> None:
-    from .bench import base, embree, tables  # makes scenes
+    from .bench import base, embree, error, tables  # makes scenes
 
-    bench = {"base": base, "embree": embree}[options.what]
+    bench = {"base": base, "embree": embree, "error": error}[options.what]
     arguments, block = _bench_arguments(options), f"bench {options.what}"
+    _check_outputs(options)  # raises before time is spent
     if options.readme is not None:
-        tables.split_block(Path(options.readme), block)  # raises before time is spent
-    if options.json is not None and not Path(options.json).parent.is_dir():
-        raise ValueError(f"--json: no such folder: {str(Path(options.json).parent)!r}")
+        tables.split_block(Path(options.readme), block)
     result = bench.measure(**arguments)
     made = list(bench.tables(result))
     missing = list(tables.left_out(result["left_out"]))
@@ -166,7 +179,28 @@ def _bench(options: argparse.Namespace) -> None:
     if options.json is not None:
         Path(options.json).write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     if options.readme is not None:
-        tables.rewrite_block(Path(options.readme), block, made)
+        short = list(error.readme_tables(result)) if bench is error else made
+        tables.rewrite_block(Path(options.readme), block, short)
+    if options.plot is not None:
+        from .bench import error_plot
+
+        error_plot.figure(result).savefig(options.plot, dpi=150)
+
+
+def _check_outputs(options: argparse.Namespace) -> None:
+    """That the files which a bench is to write can be written."""
+    for name in ("json", "plot"):
+        path = getattr(options, name)
+        if path is not None and not Path(path).parent.is_dir():
+            raise ValueError(f"--{name}: no such folder: {str(Path(path).parent)!r}")
+    if options.plot is None:
+        return
+    if options.what != "error":
+        raise ValueError(f"--plot is of bench error, got bench {options.what}")
+    if Path(options.plot).suffix.lower() not in PLOTS:
+        raise ValueError(f"--plot must end in one of {', '.join(PLOTS)}, got {options.plot!r}")
+    if importlib.util.find_spec("matplotlib") is None:
+        raise ImportError("--plot needs matplotlib: pip install 'raybound[plot]'")
 
 
 def _bench_arguments(options: argparse.Namespace) -> dict[str, Any]:
@@ -185,9 +219,9 @@ def _bench_arguments(options: argparse.Namespace) -> dict[str, Any]:
         if not all(number.isdecimal() and 0 < int(number) <= 1024 for number in numbers):
             raise ValueError(f"--threads must be numbers in 1..1024 with commas between them, got {options.threads!r}")
         given["threads"] = [int(number) for number in numbers]
-    fixed = [name for name in ("width", "height", "threads") if options.what == "embree" and name in given]
+    fixed = [name for name in FIXED[options.what] if name in given]
     if fixed:
-        raise ValueError(f"--{fixed[0]} cannot be chosen for bench embree: 1200 x 900 pixels, one thread")
+        raise ValueError(f"--{fixed[0]} cannot be chosen for bench {options.what}: {FIXED[options.what][fixed[0]]}")
     return given
 
 

@@ -56,30 +56,23 @@ void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>&
     record.face_id = face_id(nearest.crossing);
 }
 
-// The epsilon policies take the plain point o + t d and move it by 1e-5, or by 10 ulp of each coordinate.
-template <class T>
-Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& n, Offsets offsets) {
-    if (offsets == Offsets::epsilon) return p + n * T(1e-5);
-    const Vec3<T> step = absolute(p) * (T(2) * NumberTraits<T>::unit_roundoff * T(10));
-    return p + n * step;
-}
-
 template <class T>
 void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray,
-                 T scale, Offsets offsets) {
+                 T scale, Offsets offsets, bool inward) {
     const SurfacePoint<T> at = surface_point<T>(geometry, crossing, widen(ray), {true, true});
     record.hit = true;
     record.t = double(at.t) / double(scale);
     record.t_error = next_float_up(double(at.t_error) / double(scale));
     const bool bounded = offsets == Offsets::bounded;
-    const Vec3<T> p = bounded ? at.point : ray.origin + ray.direction * T(crossing.t);
-    store(p, record.point);
+    const PlainPoint<T> plain = bounded ? PlainPoint<T>{at.point, at.normal} : estimate_point(geometry, crossing, ray);
+    const Vec3<T> side = inward ? -plain.normal : plain.normal;
+    store(plain.point, record.point);
     store(at.point_error, record.point_error);
     store(at.shading, record.normal);
     record.uv[0] = double(at.uv.u);
     record.uv[1] = double(at.uv.v);
     record.face_id = face_id(crossing);
-    store(bounded ? offset_origin(p, at.point_error, at.normal) : epsilon_origin(p, at.normal, offsets),
+    store(bounded ? offset_origin(plain.point, at.point_error, side) : epsilon_origin(plain.point, side, offsets),
           record.next_origin);
 }
 
@@ -157,7 +150,8 @@ PrimaryHits primary_hits(const Snapshot& scene, const Camera& camera, int thread
 
 template <class T>
 std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
-                                            std::span<const Vec3d> directions, Offsets offsets, const Watch& watch) {
+                                            std::span<const Vec3d> directions, Offsets offsets, bool inward,
+                                            const Watch& watch) {
     Geometry geometry;
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
@@ -170,14 +164,14 @@ std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const 
         if (!crosses(primitive.bounds, SlabRay<T>(ray), infinity<T>, &entry)) return;
         const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, WideRay<T>(ray));
         if (crossing.hit && T(crossing.t) < infinity<T>)
-            fill_record(records[i], geometry, crossing, ray, scale, offsets);
+            fill_record(records[i], geometry, crossing, ray, scale, offsets, inward);
     });
     return records;
 }
 
 template std::vector<ShapeHitRecord> intersect_shape<float>(const Shape&, std::span<const Vec3d>,
-                                                            std::span<const Vec3d>, Offsets, const Watch&);
+                                                            std::span<const Vec3d>, Offsets, bool, const Watch&);
 template std::vector<ShapeHitRecord> intersect_shape<double>(const Shape&, std::span<const Vec3d>,
-                                                             std::span<const Vec3d>, Offsets, const Watch&);
+                                                             std::span<const Vec3d>, Offsets, bool, const Watch&);
 
 }  // namespace raybound

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "raybound/frame/camera.h"
+#include "raybound/frame/offsets.h"
 #include "raybound/frame/work_queue.h"
-#include "raybound/trace/search.h"
 
 namespace raybound {
 
@@ -43,21 +43,18 @@ struct PrimaryHits {
 };
 PrimaryHits primary_hits(const Snapshot& scene, const Camera& camera, int threads, const Watch& watch);
 
-// How an origin is moved off a surface: by the error bounds, or, to measure against, by a fixed or a scaled epsilon
-// (seeds/004).
-enum class Offsets { bounded, epsilon, scaled_epsilon };
-
 struct ShapeHitRecord {
     bool hit;
     double t, t_error;
     double point[3], point_error[3], normal[3], uv[2];
     std::int32_t face_id;
-    double next_origin[3];  // of a ray that leaves along the normal
+    double next_origin[3];  // of a ray that leaves along the normal, or against it
 };
 
-// One shape alone, with the kernels of type T.
+// One shape alone, with the kernels of type T. `inward`: next_origin is on the side against the normal.
 template <class T>
 std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
-                                            std::span<const Vec3d> directions, Offsets offsets, const Watch& watch);
+                                            std::span<const Vec3d> directions, Offsets offsets, bool inward,
+                                            const Watch& watch);
 
 }  // namespace raybound

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "raybound/numbers/number.h"
 
@@ -88,9 +89,9 @@ inline float acos(float x) {
 
 // Ward's lobe exp(-tan^2(alpha) / sigma^2) from the cosine of alpha (thesis 4.3.7, its sign of tan^2 corrected): the
 // exponent in double, so that nothing cancels where the lobe is bright, and one rounding. Even in the cosine, 0 at 0.
-inline float ward_lobe(float cosine, float sigma) {
-    const double x = cosine, tangent = (1 - x) * (1 + x) / (x * x), s = sigma;
-    const double exponent = minimum(maximum(-tangent / (s * s), -150.0), 150.0);
+inline float ward_lobe(float cosine, double sigma) {
+    const double x = cosine, tangent = (1 - x) * (1 + x) / (x * x);
+    const double exponent = minimum(maximum(-tangent / (sigma * sigma), -150.0), 150.0);
     return x == 0 ? 0.0f : x == x ? static_cast<float>(elementary::exp_kernel(exponent)) : cosine;
 }
 
@@ -98,34 +99,38 @@ inline float ward_lobe(float cosine, float sigma) {
 inline double exp(double x) { return std::exp(x); }
 inline double atan2(double y, double x) { return std::atan2(y, x); }
 inline double acos(double x) { return std::acos(x); }
-inline double ward_lobe(double cosine, double sigma) {
-    return cosine == 0 ? 0.0 : std::exp(-((1 - cosine) * (1 + cosine) / (cosine * cosine)) / (sigma * sigma));
+template <std::floating_point T>
+inline T ward_lobe(T cosine, double sigma) {
+    const T tangent = (1 - cosine) * (1 + cosine) / (cosine * cosine);
+    return cosine == 0 ? T(0) : std::exp(-tangent / (T(sigma) * T(sigma)));
 }
 
 // Not used by kernels, so they may be the C library's; float's are double's, rounded once.
 template <std::floating_point T>
+using AtLeastDouble = std::conditional_t<std::is_same_v<T, float>, double, T>;
+template <std::floating_point T>
 inline T log(T x) {
-    return static_cast<T>(std::log(double(x)));
+    return static_cast<T>(std::log(AtLeastDouble<T>(x)));
 }
 template <std::floating_point T>
 inline T sin(T x) {
-    return static_cast<T>(std::sin(double(x)));
+    return static_cast<T>(std::sin(AtLeastDouble<T>(x)));
 }
 template <std::floating_point T>
 inline T cos(T x) {
-    return static_cast<T>(std::cos(double(x)));
+    return static_cast<T>(std::cos(AtLeastDouble<T>(x)));
 }
 template <std::floating_point T>
 inline T tan(T x) {
-    return static_cast<T>(std::tan(double(x)));
+    return static_cast<T>(std::tan(AtLeastDouble<T>(x)));
 }
 template <std::floating_point T>
 inline T asin(T x) {
-    return static_cast<T>(std::asin(double(x)));
+    return static_cast<T>(std::asin(AtLeastDouble<T>(x)));
 }
 template <std::floating_point T>
 inline T atan(T x) {
-    return static_cast<T>(std::atan(double(x)));
+    return static_cast<T>(std::atan(AtLeastDouble<T>(x)));
 }
 
 }  // namespace raybound

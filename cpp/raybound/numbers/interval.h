@@ -35,7 +35,7 @@ class Interval {
     // The least interval that holds x, and x rounded to float32 where that counts. Of infinity it is that of numbers
     // larger than all finite ones, of NaN the entire line.
     template <class S>
-        requires std::is_arithmetic_v<S>
+        requires std::floating_point<S> || (std::integral<S> && sizeof(S) <= 4)  // exact in double
     Interval(S x) : ends_{-static_cast<T>(x), static_cast<T>(x)} {
         if constexpr (!std::is_same_v<S, T>) *this = outward(static_cast<double>(x), static_cast<double>(x));
         if (!(ends_[1] - ends_[1] == 0)) *this = of_special(ends_[1]);
@@ -95,7 +95,14 @@ class Interval {
     friend Interval operator+(const Interval& a, const Interval& b) { return sum(a.ends_, b.ends_); }
     friend Interval operator-(const Interval& a, const Interval& b) { return sum(a.ends_, swapped(b.ends_)); }
     friend Interval operator*(const Interval& a, const Interval& b) {
-        return of_products(a, b, [](Ends x, Ends y) { return Rounding::multiply_up(x, y); });
+        if constexpr (std::is_same_v<Rounding, PortableRounding>) {
+            const Factors f = factors(a, b);
+            Ends greater;
+            if (Rounding::try_greater_product_up(f.inf, f.of_inf, f.sup, f.of_sup, greater)) [[likely]]
+                return with_float32(greater);
+            return products_apart(a, b);
+        }
+        return of_products(a, b, Rounding::template multiply_up<Ends>);
     }
     friend Interval fma(const Interval& a, const Interval& b, const Interval& c) {
         if (c.is_empty()) return empty();
@@ -177,17 +184,27 @@ class Interval {
         return with_float32(lanes::greater(Rounding::add_up(a, b), lowest));
     }
 
-    // Either end of a times that end of b which makes the product least, and greatest: `up` rounds two products at
-    // once. All of them finite means that all ends were.
+    // Either end of a times that end of b which makes the product least, and greatest: two products in each lane, of
+    // which the greater is wanted.
+    struct Factors {
+        Ends inf, of_inf, sup, of_sup;
+    };
+    static Factors factors(const Interval& a, const Interval& b) {
+        const Ends zero{}, minus_inf = lanes::every<Ends>(a.ends_[0]), sup = lanes::every<Ends>(a.ends_[1]);
+        const Ends ordered = lanes::flipped(b.ends_, -1, 1), reversed = swapped(ordered);
+        return {lanes::flipped(minus_inf, 1, -1), minus_inf <= zero ? ordered : reversed, lanes::flipped(sup, -1, 1),
+                sup >= zero ? ordered : reversed};
+    }
+    // Finite sums mean that neither is empty or unbounded.
     template <class Up>
     static Interval of_products(const Interval& a, const Interval& b, Up up) {
         if (!lanes::all_finite(a.ends_ + b.ends_)) [[unlikely]]
             return of_special_products(a, b, up);
-        const Ends zero{}, minus_inf = lanes::every<Ends>(a.ends_[0]), sup = lanes::every<Ends>(a.ends_[1]);
-        const Ends ordered = lanes::flipped(b.ends_, -1, 1), reversed = swapped(ordered);
-        const Ends first = up(lanes::flipped(minus_inf, 1, -1), minus_inf <= zero ? ordered : reversed);
-        const Ends second = up(lanes::flipped(sup, -1, 1), sup >= zero ? ordered : reversed);
-        return with_float32(lanes::greater(first, second));
+        const Factors f = factors(a, b);
+        return with_float32(lanes::greater(up(f.inf, f.of_inf), up(f.sup, f.of_sup)));
+    }
+    [[gnu::noinline]] static Interval products_apart(const Interval& a, const Interval& b) {
+        return of_products(a, b, Rounding::template multiply_up<Ends>);
     }
     // 0 times an infinite end is 0: the end is no member.
     template <class Up>

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -32,6 +34,27 @@ void keep(T& x) {
     asm volatile("" : : "r"(&x) : "memory");
 }
 
+// Arrays whose starts are spread over the 4096 bytes by which the processor first compares addresses: a load that
+// follows a store of the same ones would wait for it, by chance of the heap. The first is for results.
+template <class T, int count>
+class SpreadArrays {
+  public:
+    explicit SpreadArrays(std::size_t n)
+        : stride_((n * sizeof(T) + page - 1) / page * page + page / count), memory_(stride_ * count + page) {
+        void* start = memory_.data();
+        std::size_t space = memory_.size();
+        first_ = static_cast<std::byte*>(std::align(page, stride_ * count, start, space));
+        for (int k = 0; k < count; ++k) std::uninitialized_value_construct_n((*this)[k], n);
+    }
+    T* operator[](int k) { return reinterpret_cast<T*>(first_ + stride_ * static_cast<std::size_t>(k)); }
+
+  private:
+    static constexpr std::size_t page = 4096;
+    std::size_t stride_;
+    std::vector<std::byte> memory_;
+    std::byte* first_ = nullptr;
+};
+
 template <class Pass>
 double best_nanoseconds(Pass pass, std::size_t n, int repeats) {
     double best = std::numeric_limits<double>::infinity();
@@ -47,15 +70,15 @@ double best_nanoseconds(Pass pass, std::size_t n, int repeats) {
 
 template <class Number, class Make>
 double time_one_by_one(std::size_t n, int repeats, Make make) {
-    std::vector<Number> a(n), b(n), c(n), r(n);
+    SpreadArrays<Number, 4> arrays(n);
     Operands operands;
-    for (auto* v : {&a, &b, &c})
-        for (Number& x : *v) x = make(operands.next());
+    for (int k = 1; k < 4; ++k)
+        for (std::size_t i = 0; i < n; ++i) arrays[k][i] = make(operands.next());
     return best_nanoseconds(
-        [n, x = a.data(), y = b.data(), z = c.data(), out = r.data()] {
+        [n, r = arrays[0], a = arrays[1], b = arrays[2], c = arrays[3]] {
             for (std::size_t i = 0; i < n; ++i) {
-                out[i] = x[i] * y[i] + z[i];
-                keep(out[i]);
+                r[i] = a[i] * b[i] + c[i];
+                keep(r[i]);
             }
         },
         n, repeats);
@@ -70,18 +93,17 @@ double time_intervals(std::size_t n, int repeats) {
 }
 
 double time_array(std::size_t n, int repeats) {
-    std::vector<double> ends[8];
-    for (auto& v : ends) v.resize(n);
+    SpreadArrays<double, 8> ends(n);
     Operands operands;
-    for (int operand = 0; operand < 3; ++operand)
+    for (int k = 2; k < 8; k += 2)
         for (std::size_t i = 0; i < n; ++i) {
             const double x = operands.next();
-            ends[2 * operand][i] = x - radius, ends[2 * operand + 1][i] = x + radius;
+            ends[k][i] = x - radius, ends[k + 1][i] = x + radius;
         }
-    const auto in = [&](int i) { return IntervalArray<const double>{ends[2 * i].data(), ends[2 * i + 1].data()}; };
+    const auto in = [&](int k) { return IntervalArray<const double>{ends[k], ends[k + 1]}; };
     return best_nanoseconds(
         [&] {
-            interval_array_operation<double>("multiply_add", in(0), in(1), in(2), {ends[6].data(), ends[7].data()}, n);
+            interval_array_operation<double>("multiply_add", in(2), in(4), in(6), {ends[0], ends[1]}, n);
             keep(ends);
         },
         n, repeats);

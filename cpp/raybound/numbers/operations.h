@@ -46,8 +46,8 @@ inline constexpr auto ternary = std::tuple{
 
 // With a parameter that is a plain number.
 inline constexpr auto parametric = std::tuple{
-    Operation{"power", [](const auto& x, auto n) { return power(x, static_cast<int>(n)); }},
-    Operation{"ward_lobe", [](const auto& x, auto sigma) { return ward_lobe(x, sigma); }},
+    Operation{"power", [](const auto& x, double n) { return power(x, static_cast<int>(n)); }},
+    Operation{"ward_lobe", [](const auto& x, double sigma) { return ward_lobe(x, sigma); }},
 };
 
 template <class... Operations, class Visitor>

@@ -10,11 +10,11 @@ namespace raybound {
 namespace hardware {
 
 // Numbers and lanes as the registers that can round in a direction: the lowest element, or all of 512 bits. What lies
-// beyond the lanes is 0, not left over: a left-over subnormal could be slow. (The forms with a mask of ones have no
-// undefined operand for g++ to warn of; they are the same instructions.)
+// beyond the lanes is not looked at; it is 0 unless such a register was used for it before. (Forms with a mask of ones
+// are the same instructions, without the undefined operand that g++ warns of.)
 inline __m128d load(double x) { return _mm_set1_pd(x); }
 inline __m128 load(float x) { return _mm_set1_ps(x); }
-inline __m512d load(Lanes<double, 2> x) { return _mm512_zextpd128_pd512((__m128d)x); }
+inline __m512d load(Lanes<double, 2> x) { return _mm512_castpd128_pd512((__m128d)x); }
 inline __m512d load(Lanes<double, 8> x) { return (__m512d)x; }
 inline __m512 load(Lanes<float, 2> x) { return _mm512_zextps128_ps512((__m128)Lanes<float, 4>{x[0], x[1], 0, 0}); }
 inline __m512 load(Lanes<float, 8> x) {

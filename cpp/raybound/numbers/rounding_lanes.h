@@ -129,10 +129,12 @@ inline bool all_between(V x, Value<V> low, Value<V> high) {
 
 template <class V>
 inline bool all_finite(V x) {
-#ifdef __AVX512DQ__
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
     constexpr int not_finite = 0x99;  // quiet and signalling NaN, either infinity
     if constexpr (sizeof(V) == 64 && count<V> == 8)
         return _mm512_fpclass_pd_mask((__m512d)x, not_finite) == 0;
+    else if constexpr (sizeof(V) == 16 && count<V> == 2)
+        return _mm_fpclass_pd_mask((__m128d)x, not_finite) == 0;
     else
 #endif
         return all(magnitude(x) < every<V>(std::numeric_limits<Value<V>>::infinity()));
@@ -212,6 +214,19 @@ inline bool has_product_error(V a, V b, V product) {
            all_between(greater(magnitude(a), magnitude(b)), 0, 0x1p990);
 }
 #endif
+
+// The same of two products at once. A NaN in p passes `lesser` and fails there, one in q fails in `greater`.
+template <class V>
+inline bool have_product_errors([[maybe_unused]] V a, [[maybe_unused]] V b, V product, [[maybe_unused]] V c,
+                                [[maybe_unused]] V d, V other) {
+    const V p = magnitude(product), q = magnitude(other);
+    const V lesser = q < p ? q : p;
+#ifndef __FMA__
+    if (!all_between(greater(greater(magnitude(a), magnitude(b)), greater(magnitude(c), magnitude(d))), 0, 0x1p990))
+        return false;
+#endif
+    return all((lesser >= 0x1p-960) & (greater(p, q) < 0x1p1022));
+}
 
 }  // namespace lanes
 }  // namespace raybound

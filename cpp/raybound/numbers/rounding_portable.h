@@ -12,7 +12,8 @@ namespace rounding {
 // The neighbour above, where a rounding to nearest fell below its exact value.
 inline double raise_if(bool below, double nearest) {
 #ifdef RAYBOUND_SABOTAGE_ROUNDING
-    return below ? nearest : nearest;  // the sabotage build: to nearest, and the tests must notice
+    static_cast<void>(below);  // the sabotage build: to nearest, and the tests must notice
+    return nearest;
 #else
     return below ? next_float_up(nearest) : nearest;
 #endif
@@ -25,7 +26,8 @@ inline double raise_if(bool below, double nearest) {
 template <class V>
 inline V raise_if_positive(V residual, V nearest) {
 #ifdef RAYBOUND_SABOTAGE_ROUNDING
-    return residual == residual ? nearest : nearest;
+    static_cast<void>(residual);
+    return nearest;
 #else
     const V step = (0x1p-53 + 0x1p-105) * lanes::magnitude(nearest);
     return nearest + lanes::where_positive(residual, step);
@@ -37,11 +39,12 @@ inline V raise_if_positive(V residual, V nearest) {
 template <class D>
 inline lanes::With<D, float> float_above(D d, D e) {
     using F = lanes::With<D, float>;
-    using Bits = lanes::Bits<F>;
     const F f = lanes::convert<F>(d);
 #ifdef RAYBOUND_SABOTAGE_ROUNDING
-    return e == e ? f : f;
+    static_cast<void>(e);
+    return f;
 #else
+    using Bits = lanes::Bits<F>;
     const D back = lanes::convert<D>(f);
     const auto below = lanes::convert<Bits>((back < d) | ((back == d) & (e > 0)));
     const auto bits = std::bit_cast<Bits>(f);
@@ -152,6 +155,23 @@ struct PortableRounding {
                 return lanes::one_by_one([](double x, double y) { return rounding::multiply_up(x, y, x * y); }, a, b);
             return rounding::raise_if_positive(lanes::product_error(a, b, product), product);
         }
+    }
+
+    // The greater of a b and c d, rounded up, at the price of one test for special cases: false, and nothing done,
+    // where there may be one.
+    template <class V>
+    static bool try_greater_product_up(V a, V b, V c, V d, V& greater) {
+        if constexpr (rounding::by_double<V>) {
+            const auto x = rounding::wide(a) * rounding::wide(b), y = rounding::wide(c) * rounding::wide(d);
+            if (!lanes::all_finite(x + y)) return false;
+            greater = rounding::float_above(lanes::greater(x, y));
+        } else {
+            const V x = a * b, y = c * d;
+            if (!lanes::have_product_errors(a, b, x, c, d, y)) return false;
+            greater = lanes::greater(rounding::raise_if_positive(lanes::product_error(a, b, x), x),
+                                     rounding::raise_if_positive(lanes::product_error(c, d, y), y));
+        }
+        return true;
     }
 
     template <class V>

@@ -55,6 +55,18 @@ W distance_anywhere(const Geometry& geometry, const Leaf& leaf, int face, const 
     return reach * minimum(norm1(local.y - apex) + norm1(local.error), far);
 }
 
+// A bound of the second-order coefficient of a face's form along any unit vector of the world: quick to tell.
+template <class W>
+W largest_curvature(const Geometry& geometry, const Leaf& leaf, int face) {
+    if (leaf.kind == LeafKind::sphere && leaf.frame < 0) return W(1) + W(0x1p-20);
+    if (face != 0 || leaf.kind == LeafKind::box || is_sheet(leaf)) return W(0);
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    const Vec3<W> rows(frame.row_norm);
+    const W stretch = dot(rows, rows) * (W(1) + W(0x1p-20));
+    if (leaf.kind == LeafKind::quadric) return stretch * W(geometry.quadrics[leaf.polygon].norm);
+    return leaf.kind == LeafKind::cone ? stretch * maximum(W(1), square(W(frame.slope))) : stretch;
+}
+
 // How far a polished point can be from the surface (derivation D3). Four bands: the error of F there, that of F at the
 // origin spawned from it, and as much again, so that the kernel is sure of its side. |F| / |grad F| is a bound where F
 // along the normal is as good as linear from here to the surface.
@@ -64,9 +76,11 @@ W surface_distance(const Geometry& geometry, const Leaf& leaf, int face, const V
     const W squared = dot(surface.gradient, surface.gradient);
     const bool quadric = leaf.kind == LeafKind::quadric && face == 0;
     const W residual = abs(surface.form.value) + W(4) * surface.form.band * (quadric ? quadric_margin<W> : W(1));
-    const W bend = abs(leaf_curvature(geometry, leaf, face, p, normal));
-    const W distance = residual * bend <= W(0x1p-11) * squared ? residual / sqrt(squared) * (W(1) + W(0x1p-10))
-                                                               : distance_anywhere(geometry, leaf, face, p);
+    const W flat = W(0x1p-11) * squared;
+    const bool linear = residual * largest_curvature<W>(geometry, leaf, face) <= flat ||
+                        residual * abs(leaf_curvature(geometry, leaf, face, p, normal)) <= flat;
+    const W distance =
+        linear ? residual / sqrt(squared) * (W(1) + W(0x1p-10)) : distance_anywhere(geometry, leaf, face, p);
     if (!quadric) return distance;
     const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
     const Quadric& form = geometry.quadrics[leaf.polygon];
@@ -99,6 +113,7 @@ Polished<W> polish(const Geometry& geometry, const Leaf& leaf, int face, Vec3<W>
 // far below its own rounding) toward the viewer.
 template <class W>
 Vec3<W> unit_normal(const Geometry& geometry, const Leaf& leaf, const Surface<W>& surface, const Vec3<W>& direction) {
+    if (leaf.kind == LeafKind::box && leaf.frame < 0) return surface.gradient;  // an axis
     const W largest_part = max_component(absolute(surface.gradient));
     if (largest_part > W(0)) return normalize(surface.gradient * (W(1) / largest_part));
     if (leaf.kind != LeafKind::cone) return normalize(-direction);
@@ -200,6 +215,14 @@ SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>&
     return hit;
 }
 
+template <class T>
+PlainPoint<T> estimate_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray) {
+    const Leaf& leaf = geometry.leaves[crossing.leaf];
+    const Vec3<T> p = ray.origin + ray.direction * T(crossing.t);
+    const Surface<T> surface = leaf_surface(geometry, leaf, crossing.face, p, ray.direction);
+    return {p, unit_normal(geometry, leaf, surface, ray.direction)};
+}
+
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
     if (primitive.is_csg) return false;
     const Leaf& leaf = geometry.leaves[primitive.root];
@@ -215,5 +238,7 @@ template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, c
 template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&);
 template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
 template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
+template PlainPoint<float> estimate_point(const Geometry&, const Crossing<double>&, const Ray<float>&);
+template PlainPoint<double> estimate_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
 
 }  // namespace raybound

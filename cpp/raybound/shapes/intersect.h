@@ -73,6 +73,15 @@ template <class T>
 SurfacePoint<T> surface_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<Wide<T>>& ray,
                               Wanted wanted);
 
+// What a tracer without bounds knows of a hit: o + t d and the unit normal there, all in T. It promises nothing: the
+// epsilon policies start from it.
+template <class T>
+struct PlainPoint {
+    Vec3<T> point, normal;
+};
+template <class T>
+PlainPoint<T> estimate_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray);
+
 // Once a ray has left a convex leaf outward (or a sheet on either side), it cannot meet it again.
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward);
 

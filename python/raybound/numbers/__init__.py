@@ -21,10 +21,14 @@ from .functions import (
     ward_lobe,
 )
 from .interval import Interval
+from .linear_interval import LinearInterval
+from .running_error import RunningError
 from .taylor_model import TaylorModel
 
 __all__ = [
     "Interval",
+    "LinearInterval",
+    "RunningError",
     "TaylorModel",
     "abs",
     "acos",

@@ -22,6 +22,7 @@ class Number:
 
     __slots__ = ("_kind", "_records")
     __array_ufunc__: ClassVar[None] = None  # arrays leave operators to this class
+    _rank: ClassVar[int] = 0  # where kinds meet, the others become one of the highest
 
     _kind: str
     _records: npt.NDArray[Any]
@@ -65,7 +66,7 @@ class Number:
         if not self.ndim:
             raise TypeError(f"a single {type(self).__name__} cannot be indexed")
         where = index if isinstance(index, tuple) else (index,)
-        if Ellipsis not in [item for item in where if item is Ellipsis]:
+        if not any(item is Ellipsis for item in where):
             where = (*where, Ellipsis)
         return self._made(self._kind, self._records[(*where, slice(None))].copy(), (self, where))
 
@@ -94,39 +95,41 @@ class Number:
         return None
 
     def __neg__(self) -> Self:
-        return operate("negative", self)
+        result: Self = operate("negative", self)
+        return result
 
     def __pos__(self) -> Self:
         return self
 
     def __abs__(self) -> Self:
-        return operate("abs", self)
+        result: Self = operate("abs", self)
+        return result
 
-    def __add__(self, other: object) -> Self:
+    def __add__(self, other: object) -> Any:
         return _operator("add", self, other)
 
-    def __radd__(self, other: object) -> Self:
+    def __radd__(self, other: object) -> Any:
         return _operator("add", other, self)
 
-    def __sub__(self, other: object) -> Self:
+    def __sub__(self, other: object) -> Any:
         return _operator("subtract", self, other)
 
-    def __rsub__(self, other: object) -> Self:
+    def __rsub__(self, other: object) -> Any:
         return _operator("subtract", other, self)
 
-    def __mul__(self, other: object) -> Self:
+    def __mul__(self, other: object) -> Any:
         return _operator("multiply", self, other)
 
-    def __rmul__(self, other: object) -> Self:
+    def __rmul__(self, other: object) -> Any:
         return _operator("multiply", other, self)
 
-    def __truediv__(self, other: object) -> Self:
+    def __truediv__(self, other: object) -> Any:
         return _operator("divide", self, other)
 
-    def __rtruediv__(self, other: object) -> Self:
+    def __rtruediv__(self, other: object) -> Any:
         return _operator("divide", other, self)
 
-    def __pow__(self, exponent: object) -> Self:
+    def __pow__(self, exponent: object) -> Any:
         if isinstance(exponent, (bool, float)) or not isinstance(exponent, (int, np.integer)):
             return NotImplemented
         n = _validate.integer("power", "n", exponent, lowest=-(2**20), highest=2**20)
@@ -167,7 +170,7 @@ def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
 
     Raises TypeError for operands that do not go together.
     """
-    leader = next(item for item in operands if isinstance(item, Number))
+    leader = max((item for item in operands if isinstance(item, Number)), key=lambda item: item._rank)
     lifted = [leader._lift(item, name, "operand") for item in operands]
     widest = max(lifted, key=lambda item: item._kind)  # "..._float64" after "..._float32"
     if any(item._kind != widest._kind for item in lifted):
@@ -181,8 +184,9 @@ def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
 
 
 def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDArray[Any]:
-    """A number or an array of numbers as float32 (if it was) or float64. TypeError; ValueError for NaN (and infinity)."""
-    if isinstance(value, Number) or type(value).__array_ufunc__ is None if hasattr(type(value), "__array_ufunc__") else False:
+    """A number or an array of numbers, float32 if it was, else float64. TypeError; ValueError for NaN (and infinity)."""
+    # A class that leaves no operator to NumPy: a Number, or a shape.
+    if getattr(type(value), "__array_ufunc__", 0) is None:
         raise _NotOursError(f"{who}: {name} must be a number or an array of numbers, got a {type(value).__name__}")
     try:
         given = _validate.numeric(who, name, value, "a number or an array of numbers")
@@ -191,7 +195,9 @@ def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDA
     array = np.asarray(given, np.float32 if given.dtype in (np.float16, np.float32) else np.float64)
     good = np.isfinite(array) if finite else ~np.isnan(array)
     if not good.all():
-        raise ValueError(f"{who}: {name} must be {'finite' if finite else 'a number'}, got {_validate._culprit(array, good)}")
+        raise ValueError(
+            f"{who}: {name} must be {'finite' if finite else 'a number'}, got {_validate._culprit(array, good)}"
+        )
     return array
 
 

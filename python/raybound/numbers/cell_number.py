@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from .. import _core, _validate
 from .base import Number, plain
+from .interval import Interval
 
 Cell = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
@@ -37,7 +38,9 @@ def make_cell(
     middle = np.ascontiguousarray(middle)
     if enlarge == "not":
         return middle, np.ascontiguousarray(half)
-    wider: npt.NDArray[np.float64] = _core.cell_radii(middle, np.ascontiguousarray(half), enlarge == "derived").reshape(middle.shape)
+    wider: npt.NDArray[np.float64] = _core.cell_radii(middle, np.ascontiguousarray(half), enlarge == "derived").reshape(
+        middle.shape
+    )
     middle.flags.writeable = wider.flags.writeable = False
     return middle, wider
 
@@ -47,6 +50,7 @@ class CellNumber(Number):
 
     __slots__ = ("_cell",)
 
+    _rank = 1
     _cell: Cell
 
     def _adopt(self, template: Any) -> None:
@@ -71,6 +75,12 @@ class CellNumber(Number):
             if value._cell is not self._cell and not all(map(np.array_equal, value._cell, self._cell)):
                 raise ValueError(f"{who}: both operands must be functions over the same cell")
             return value
+        if isinstance(value, Interval):
+            if not np.isfinite(value.mag).all():
+                raise ValueError(f"{who}: {name} must be bounded and not empty, got {value!r}")
+            records = np.zeros((*value.shape, self._records.shape[-1]))
+            self._set_interval(records, value)
+            return self._made(self._kind, records, self)
         array = np.asarray(plain(who, name, value), np.float64)
         records = np.zeros((*array.shape, self._records.shape[-1]))
         self._set_constant(records, array)
@@ -78,6 +88,9 @@ class CellNumber(Number):
 
     def _set_constant(self, records: npt.NDArray[np.float64], values: npt.NDArray[np.float64]) -> None:
         records[..., 0] = values
+
+    def _set_interval(self, records: npt.NDArray[np.float64], interval: Interval) -> None:
+        raise NotImplementedError  # pragma: no cover - every class has its own
 
     def __eq__(self, other: object) -> bool:
         return Number.__eq__(self, other) is True and all(map(np.array_equal, self._cell, other._cell))  # type: ignore[attr-defined]

@@ -49,7 +49,7 @@ def rsqrt(x: Any) -> Any:
 
 
 def square(x: Any) -> Any:
-    """x * x, knowing that both are the same: the square of [-1, 1] is [0, 1]."""
+    """X * x, knowing that both are the same: the square of [-1, 1] is [0, 1]."""
     return _evaluate("square", {"x": x})
 
 
@@ -59,7 +59,7 @@ def reciprocal(x: Any) -> Any:
 
 
 def exp(x: Any) -> Any:
-    """e to the power of x."""
+    """E to the power of x."""
     return _evaluate("exp", {"x": x})
 
 
@@ -114,13 +114,13 @@ def maximum(a: Any, b: Any) -> Any:
 
 
 def power(x: Any, n: int) -> Any:
-    """x to the power of an integer -2^20 <= n <= 2^20; x^0 is 1. Floats by repeated squaring: at most |n| roundings."""
+    """X to the power of an integer -2^20 <= n <= 2^20; x^0 is 1. Floats by repeated squaring: at most |n| roundings."""
     exponent = _validate.integer("power", "n", n, lowest=-(2**20), highest=2**20)
     return _evaluate("power", {"x": x}, exponent)
 
 
 def fma(a: Any, b: Any, c: Any) -> Any:
-    """a * b + c; of floats and Intervals with one rounding."""
+    """A * b + c; of floats and Intervals with one rounding."""
     return _evaluate("fma", {"a": a, "b": b, "c": c})
 
 

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from .. import _core, _validate
+from .. import _core
 from .base import Number, is_weak, operate, plain
 
 KIND = {np.dtype(np.float32): "interval_float32", np.dtype(np.float64): "interval_float64"}
@@ -44,7 +44,9 @@ class Interval(Number):
     def __init__(self, lo: npt.ArrayLike, hi: npt.ArrayLike | None = None) -> None:
         low = plain("Interval", "lo", lo, finite=False)
         high = low if hi is None else plain("Interval", "hi", hi, finite=False)
-        dtype = np.result_type(*[a.dtype for a, given in ((low, lo), (high, hi)) if not is_weak(given)] or [np.float64])
+        dtype = np.result_type(
+            *[a.dtype for a, given in ((low, lo), (high, hi)) if not is_weak(given)] or [np.dtype(np.float64)]
+        )
         if dtype == np.float32 and any(not np.array_equal(a, a.astype(dtype)) for a in (low, high)):
             dtype = np.dtype(np.float64)
         try:
@@ -152,8 +154,3 @@ class Interval(Number):
         if self._records.dtype == np.float32:
             return f"{name}(np.float32({self.inf}), np.float32({self.sup}))"
         return f"{name}({float(self.inf)!r}, {float(self.sup)!r})"
-
-
-def describe(interval: Interval) -> str:
-    """The interval in an error message."""
-    return _validate.describe(interval)

@@ -50,7 +50,11 @@ class TaylorModel(CellNumber):
 
     @property
     def _n(self) -> int:
-        return self._cell[0].shape[-1]
+        return int(self._cell[0].shape[-1])
+
+    def _set_interval(self, records: npt.NDArray[np.float64], interval: Interval) -> None:
+        records[..., 0] = interval.mid
+        records[..., -1] = interval.rad
 
     @property
     def arithmetic(self) -> str:
@@ -69,7 +73,7 @@ class TaylorModel(CellNumber):
 
     @property
     def quadratic(self) -> npt.NDArray[np.float64]:
-        """The coefficients of their products, (..., N, N): squares on the diagonal, mixed terms above it, zeros below."""
+        """The coefficients of their products, (..., N, N): squares on the diagonal, mixed terms above it."""
         n = self._n
         matrix = np.zeros((*self.shape, n, n))
         matrix[..., range(n), range(n)] = self._records[..., 1 + n : 1 + 2 * n]
@@ -132,7 +136,7 @@ class TaylorModel(CellNumber):
     ) -> TaylorModel:
         """The function of new variables y (2 or 4 of them), on which x = constants + slopes y depends.
 
-        `constants`: (N,); `slopes`: (N, M), M = 2 or 4; the new cell is |y_j - center_j| <= radius_j, and its image must
+        `constants`: (N,); `slopes`: (N, M), M = 2 or 4; the new cell is |y_j - center_j| <= radius_j, whose image must
         lie in the old cell (ValueError otherwise). So one fixes a coordinate (a row of zeros), or makes one a function
         of others, as a fixed eye does (certified-interpolants.md, section 5).
         """

@@ -1,0 +1,99 @@
+#include "raybound/frame/offsets.h"
+
+#include <ctime>
+#include <stdexcept>
+
+#include "raybound/trace/shading.h"
+
+namespace raybound {
+
+namespace {
+
+// Where rays leave a hit, and the normal turned toward the viewer.
+template <class T>
+struct Departing {
+    Vec3<T> origin, side;
+    Departure departed;
+};
+
+template <class T>
+Departing<T> depart(const Geometry& geometry, const Nearest<T>& nearest, const WideRay<T>& ray,
+                    const Leaving& leaving) {
+    const auto left = [&](bool outward) {
+        return leaving.skips ? departure(geometry, nearest.primitive, outward) : Departure{};
+    };
+    if (leaving.offsets == Offsets::bounded) {
+        const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, ray.wide, {});
+        const Vec3<T> side = hit.entering ? hit.normal : -hit.normal;
+        return {offset_origin(hit.point, hit.point_error, side), side, left(hit.entering)};
+    }
+    const PlainPoint<T> hit = estimate_point<T>(geometry, nearest.crossing, ray.narrow);
+    const bool outward = !(dot(ray.narrow.direction, hit.normal) > T(0));
+    const Vec3<T> side = outward ? hit.normal : -hit.normal;
+    return {epsilon_origin(hit.point, side, leaving.offsets), side, left(outward)};
+}
+
+template <class T>
+Vec3<T> light_of(const Snapshot& scene, const Material& material, const Departing<T>& from, const Vec3<T>& view,
+                 Bounces& counts) {
+    const Vec3<T> diffuse(material.diffuse);
+    const T n_dot_v = dot(from.side, view);
+    Vec3<T> sum = Vec3<T>(scene.ambient()) * diffuse;
+    for (const LightRecord& entry : scene.lights()) {
+        const Light& light = *entry.light;
+        const Incoming<T> in = incoming(light, from.origin);
+        const T n_dot_l = dot(from.side, in.direction);
+        if (!(n_dot_l > T(0))) continue;
+        const WideRay<T> ray = light.kind == LightKind::directional
+                                   ? WideRay<T>(from.origin, in.direction)
+                                   : WideRay<T>::segment(from.origin, Vec3<T>(light.position));
+        const bool blocked = is_blocked(scene, ray, from.departed, nullptr);
+        ++counts.rays;
+        counts.blocked += blocked;
+        if (!blocked)
+            sum = sum + in.irradiance * reflectance(diffuse, material, from.side, in.direction, view, n_dot_l, n_dot_v);
+    }
+    return sum;
+}
+
+template <class T>
+Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, Departure departed, const Leaving& leaving, int depth,
+               Bounces& counts) {
+    ++counts.rays;
+    const Nearest<T> nearest = closest_hit(scene, ray, departed);
+    if (!nearest.hit) return Vec3<T>(scene.background());
+    ++counts.hits;
+    const Material& material = *scene.objects()[scene.geometry().primitives[nearest.primitive].object].material;
+    const Vec3<T>& d = ray.narrow.direction;
+    const Departing<T> from = depart(scene.geometry(), nearest, ray, leaving);
+    const Vec3<T> local = light_of(scene, material, from, -d, counts);
+    if (depth == 1) return local;
+    const WideRay<T> mirrored(from.origin, reflected_direction(d, from.side));
+    return local + bounce(scene, mirrored, from.departed, leaving, depth - 1, counts);
+}
+
+}  // namespace
+
+template <class T>
+Bounces trace_bounces(const Snapshot& scene, std::span<const Vec3d> origins, std::span<const Vec3d> directions,
+                      const Leaving& leaving) {
+    std::vector<WideRay<T>> rays;
+    rays.reserve(origins.size());
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        Vec3<T> direction(directions[i]);
+        if (!unit_direction(direction)) throw std::invalid_argument("trace_bounces: directions must not be zero");
+        rays.emplace_back(Vec3<T>(origins[i]), direction);
+    }
+    Bounces counts;
+    const std::clock_t begin = std::clock();
+    Vec3<T> radiance;
+    for (const WideRay<T>& ray : rays) radiance = radiance + bounce(scene, ray, {}, leaving, 2, counts);
+    counts.seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    counts.radiance = double(radiance.x + radiance.y + radiance.z);
+    return counts;
+}
+
+template Bounces trace_bounces<float>(const Snapshot&, std::span<const Vec3d>, std::span<const Vec3d>, const Leaving&);
+template Bounces trace_bounces<double>(const Snapshot&, std::span<const Vec3d>, std::span<const Vec3d>, const Leaving&);
+
+}  // namespace raybound

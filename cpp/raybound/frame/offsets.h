@@ -1,0 +1,38 @@
+// How the origin of a spawned ray is moved off a surface: by the error bounds, or by an epsilon, to measure against.
+#pragma once
+
+#include <span>
+
+#include "raybound/trace/search.h"
+
+namespace raybound {
+
+// By the bounds; by 1e-5; by 10 ulp of each coordinate (seeds/004).
+enum class Offsets { bounded, epsilon, scaled_epsilon };
+
+// p moved to the side of the unit vector `side` without knowledge of p's error.
+template <class T>
+inline Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& side, Offsets offsets) {
+    if (offsets == Offsets::epsilon) return p + side * T(1e-5);
+    const Vec3<T> step = absolute(p) * (T(2) * NumberTraits<T>::unit_roundoff * T(10));
+    return p + side * step;
+}
+
+// What a policy costs, on this thread: the rays of a picture of mirrors without textures. Each ray's closest hit, the
+// point there, the origin that the policy spawns, from it a shadow ray to each light that the surface faces, the light
+// that comes from there, and, once, the mirrored ray. The epsilon policies compute the plain point in T and no bound.
+// `skips`: rays do not ask what they have left for good, as in the tracer, which knows the side of its origins.
+struct Leaving {
+    Offsets offsets = Offsets::bounded;
+    bool skips = true;
+};
+struct Bounces {
+    std::uint64_t rays = 0, hits = 0, blocked = 0;
+    double radiance = 0;  // the sum over rays and channels
+    double seconds = 0;   // of this process: what others do meanwhile does not count
+};
+template <class T>
+Bounces trace_bounces(const Snapshot& scene, std::span<const Vec3d> origins, std::span<const Vec3d> directions,
+                      const Leaving& leaving);
+
+}  // namespace raybound
