@@ -25,6 +25,7 @@ class Kind:
         self.dtype = dtype
         self.variables = variables
         self.unit = float(np.finfo(dtype).eps) / 2
+        self.is_set = False  # loses the part of its operands that is outside of the domain, where others give up
 
     def __repr__(self) -> str:
         return self.name
@@ -63,6 +64,10 @@ class Kind:
         """The least and the greatest value of each record at each point."""
         low, high = (self.values(records, points, np.full((len(records), len(points)), t)) for t in (-1.0, 1.0))
         return [list(zip(a, b)) for a, b in zip(low, high)]
+
+    def is_canonical(self, records: Records) -> np.ndarray:
+        """Whether records are as they should be: without NaN, the ends in order, the unknown always the same."""
+        raise NotImplementedError
 
     def is_bounded(self, records: Records) -> np.ndarray:
         """Where something is promised."""
@@ -114,6 +119,18 @@ FAR_PLACES = [2.0**-500, 1e154, -1e155, 1e300, 1.5e308, -1.7e308, np.finfo(np.fl
 
 
 class IntervalKind(Kind):
+    """Also what holds its values between two ends: `_sides` of a record, and `_between` the record of two."""
+
+    def __init__(self, name: str, *, executed: bool = False, dtype: type = np.float64) -> None:
+        super().__init__(name, executed=executed, dtype=dtype)
+        self.is_set = True
+
+    def _sides(self, records: Records) -> np.ndarray:
+        return records
+
+    def _between(self, sides: np.ndarray) -> Records:
+        return sides.astype(self.dtype)
+
     def draw(self, rng: np.random.Generator, centers: np.ndarray) -> Records:
         radius = spread(rng, centers)
         with np.errstate(over="ignore"):
@@ -123,18 +140,19 @@ class IntervalKind(Kind):
 
     def _mended(self, low: np.ndarray, high: np.ndarray) -> Records:
         largest = np.finfo(self.dtype).max
-        return np.stack([np.minimum(low, largest), np.maximum(high, -largest)], -1).astype(self.dtype)
+        return self._between(np.stack([np.minimum(low, largest), np.maximum(high, -largest)], -1))
 
     def cells(self, centers: np.ndarray, slopes: np.ndarray, bends: np.ndarray) -> Records:
         radius = np.abs(slopes).sum(-1) + np.abs(bends)
         return self._mended(np.asarray(centers - radius, self.dtype), np.asarray(centers + radius, self.dtype))
 
     def variable(self, i: int, low: np.ndarray, high: np.ndarray) -> tuple[Records, np.ndarray, np.ndarray]:
-        return np.stack([low, high], -1).astype(self.dtype), low, low
+        return self._between(np.stack([low, high], -1)), low, low
 
     def values(self, records: Records, points: np.ndarray, offsets: np.ndarray) -> Balls:
         return [
-            [self._value(low, high, t) for t in row] for (low, high), row in zip(records.tolist(), offsets.tolist())
+            [self._value(low, high, t) for t in row]
+            for (low, high), row in zip(self._sides(records).tolist(), offsets.tolist())
         ]
 
     @staticmethod
@@ -150,23 +168,27 @@ class IntervalKind(Kind):
         return (Ball(low) * (1 - Ball(t)) + Ball(high) * (1 + Ball(t))) / 2
 
     def ends(self, records: Records, points: np.ndarray) -> list[list[tuple[Ball, Ball]]]:
-        return [[(Ball(low), Ball(high))] * len(points) for low, high in records.tolist()]
+        return [[(Ball(low), Ball(high))] * len(points) for low, high in self._sides(records).tolist()]
 
     def is_bounded(self, records: Records) -> np.ndarray:
-        return np.isfinite(records).all(-1)
+        return np.isfinite(self._sides(records)).all(-1)
 
     def is_empty(self, records: Records) -> np.ndarray:
-        return records[:, 0] > records[:, 1]
+        return self._sides(records)[:, 0] > self._sides(records)[:, 1]
 
     def ranges(self, records: Records) -> np.ndarray:
-        return records.astype(np.float64)
+        return self._sides(records).astype(np.float64)
 
     def part(self, records: Records, rng: np.random.Generator) -> Records:
-        ends = np.sort(rng.random((len(records), 2)), -1)
+        ends, sides = np.sort(rng.random((len(records), 2)), -1), self._sides(records)
         with np.errstate(invalid="ignore"):
-            inner = records[:, :1] + (records[:, 1:] - records[:, :1]) * ends
-        inner = np.clip(np.where(np.isfinite(inner), inner, records), records[:, :1], records[:, 1:])
-        return np.where(self.is_empty(records)[:, None], records, inner).astype(self.dtype)
+            inner = sides[:, :1] + (sides[:, 1:] - sides[:, :1]) * ends
+        inner = np.clip(np.where(np.isfinite(inner), inner, sides), sides[:, :1], sides[:, 1:])
+        return self._between(np.where(self.is_empty(records)[:, None], sides, inner))
+
+    def is_canonical(self, records: Records) -> np.ndarray:
+        low, high = records.T
+        return np.where(low > high, (low == INF) & (high == -INF), (low < INF) & (high > -INF)) & (low == low)
 
     def special(self) -> Records:
         with np.errstate(over="ignore"):
@@ -176,7 +198,103 @@ class IntervalKind(Kind):
         few = np.nonzero(good)[0][:: max(1, good.sum() // 60)]
         picked = np.stack([low[few], high[few]], -1)
         signed = [[-0.0, 0.0], [0.0, 0.0], [-0.0, 1.0], [-1.0, -0.0], [INF, -INF], [-INF, INF], [0.0, INF], [-INF, 0.0]]
-        return np.concatenate([picked, np.array(signed, self.dtype)]).astype(self.dtype)
+        return self._between(np.concatenate([picked, np.array(signed, self.dtype)]))
+
+
+class RunningErrorKind(IntervalKind):
+    """A value as plain floating point gives it, and the ends that enclose the exact one: all where nothing is known."""
+
+    def __init__(self, name: str, dtype: type) -> None:
+        super().__init__(name, dtype=dtype)
+        self.is_set = False
+
+    def _sides(self, records: Records) -> np.ndarray:
+        return records[:, 1:]
+
+    def _between(self, sides: np.ndarray) -> Records:
+        ends = sides.astype(self.dtype)
+        value = np.clip(ends[:, :1] / 2 + ends[:, 1:] / 2, ends[:, :1], ends[:, 1:])
+        return np.concatenate([value, ends], -1)
+
+    def is_canonical(self, records: Records) -> np.ndarray:
+        return records[:, 1] <= records[:, 2]
+
+    def special(self) -> Records:
+        records = super().special()
+        return np.ascontiguousarray(records[np.isfinite(records).all(-1) & (records[:, 1] <= records[:, 2])])
+
+
+class LinearKind(Kind):
+    """The constant's ends, those of each slope, and those of the range, within which all values are besides."""
+
+    def _make(self, constant: np.ndarray, slopes: np.ndarray) -> Records:
+        """From ends (n, 2) and (n, variables, 2)."""
+        whole = np.full((len(constant), 2), [-INF, INF])
+        parts = np.concatenate([constant, slopes.reshape(len(constant), -1), whole], -1)
+        return self.apply("settled", [np.ascontiguousarray(parts)])
+
+    def draw(self, rng: np.random.Generator, centers: np.ndarray) -> Records:
+        n, v = len(centers), self.variables
+        size = spread(rng, centers)
+        with np.errstate(over="ignore", invalid="ignore"):
+            wide = size[:, None] * np.sort(rng.uniform(-1, 1, (n, 2)), -1) * (rng.random((n, 1)) < 0.5)
+            share = 10.0 ** rng.uniform(-14, 0, (n, 1))
+            slopes = size[:, None, None] * rng.uniform(-1, 1, (n, v, 1)) / v
+            slopes = slopes + np.abs(slopes) * share[:, None] * np.sort(rng.uniform(-1, 1, (n, v, 2)), -1)
+        constant = centers[:, None] + wide * share
+        good = np.isfinite(constant).all(-1) & np.isfinite(slopes).all((1, 2))
+        return self._make(np.where(good[:, None], constant, 1.0), np.where(good[:, None, None], slopes, 0.0))
+
+    def cells(self, centers: np.ndarray, slopes: np.ndarray, bends: np.ndarray) -> Records:
+        return self._make(np.stack([centers, centers], -1), np.stack([slopes, slopes], -1))
+
+    def variable(self, i: int, low: np.ndarray, high: np.ndarray) -> tuple[Records, np.ndarray, np.ndarray]:
+        center, radius = cell_between(low, high)
+        slopes = np.zeros((len(low), self.variables))
+        slopes[:, i] = radius
+        return self.cells(center, slopes, slopes[:, 0]), center, radius
+
+    def values(self, records: Records, points: np.ndarray, offsets: np.ndarray) -> Balls:
+        v = self.variables
+        x = [[Ball(c) for c in point] for point in points]
+        rows = []
+        for record, ts in zip(records.tolist(), offsets.tolist()):
+            slopes, (least, greatest) = record[2 : 2 + 2 * v], record[-2:]
+            row = []
+            for point, t in zip(x, ts):
+                low, high = Ball(record[0]), Ball(record[1])
+                for k, c in enumerate(point):
+                    ends = [s * c for s in (Ball(slopes[2 * k]), Ball(slopes[2 * k + 1]))]
+                    low, high = (low + ends[0], high + ends[1]) if c >= 0 else (low + ends[1], high + ends[0])
+                low, high = low if low > least else Ball(least), high if high < greatest else Ball(greatest)
+                row.append(low if t == -1 else high if t == 1 else (low * (1 - Ball(t)) + high * (1 + Ball(t))) / 2)
+            rows.append(row)
+        return rows
+
+    def is_canonical(self, records: Records) -> np.ndarray:
+        return ~np.isnan(records).any(-1) & (records[:, ::2] <= records[:, 1::2]).all(-1)
+
+    def is_bounded(self, records: Records) -> np.ndarray:
+        return np.isfinite(records).all(-1)
+
+    def ranges(self, records: Records) -> np.ndarray:
+        return records[:, -2:]
+
+    def special(self) -> Records:
+        rows = []
+        for place in [*PLACES, *FAR_PLACES]:
+            for slope, width in ((0.0, 0.0), (place, 0.0), (0.3, 0.0), (0.3, 0.1), (TINY, TINY), (0.0, abs(place) / 2)):
+                constant = np.array([[place - width, place + width]])
+                slopes = np.full((1, self.variables, 2), [slope - width, slope + width]) / self.variables
+                rows.append(self._make(constant, slopes)[0])
+        return np.array(rows)
+
+
+def cell_between(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Center and radius of cells that hold [low, high]."""
+    center = 0.5 * low + 0.5 * high
+    radius = np.maximum(np.nextafter(high - center, np.inf), np.nextafter(center - low, np.inf))
+    return center, np.where(low == high, 0, radius)
 
 
 class TaylorKind(Kind):
@@ -214,9 +332,7 @@ class TaylorKind(Kind):
         return records
 
     def variable(self, i: int, low: np.ndarray, high: np.ndarray) -> tuple[Records, np.ndarray, np.ndarray]:
-        center = 0.5 * low + 0.5 * high
-        radius = np.maximum(np.nextafter(high - center, np.inf), np.nextafter(center - low, np.inf))
-        radius = np.where(low == high, 0, radius)
+        center, radius = cell_between(low, high)
         records = np.zeros((len(low), self.width))
         records[:, 0], records[:, 1 + i] = center, radius
         return records, center, radius
@@ -235,6 +351,10 @@ class TaylorKind(Kind):
             [p + Ball(t) * r if t and r else p for p, t in zip(row, ts)]
             for row, r, ts in zip(self._polynomials(records, points), remainders, offsets.tolist())
         ]
+
+    def is_canonical(self, records: Records) -> np.ndarray:
+        unknown = records[:, -1] == INF
+        return np.where(unknown, (records[:, :-1] == 0).all(-1), np.isfinite(records).all(-1)) & (records[:, -1] >= 0)
 
     def is_bounded(self, records: Records) -> np.ndarray:
         return records[:, -1] < INF
@@ -293,6 +413,9 @@ KINDS: list[Kind] = [
     IntervalKind("interval_float32", dtype=np.float32),
     IntervalKind("interval_float64_executed", executed=True),
     IntervalKind("interval_float32_executed", dtype=np.float32, executed=True),
+    RunningErrorKind("running_error_float64", np.float64),
+    RunningErrorKind("running_error_float32", np.float32),
+    *(LinearKind(f"linear_{n}_{rule}", variables=n) for n in (1, 2, 3, 4) for rule in ("hansen", "second-order")),
     TaylorKind("taylor_2_real", variables=2),
     TaylorKind("taylor_4_real", variables=4),
     TaylorKind("taylor_2_float32", variables=2, executed=True),
