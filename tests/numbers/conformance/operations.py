@@ -128,7 +128,7 @@ def powers(rng: np.random.Generator, n: int) -> Numbers:
 
 
 OPERATIONS = [
-    Operation("negative", 1, lambda x: -x, nowhere, anywhere, (1.3,), cubic=False),
+    Operation("negate", 1, lambda x: -x, nowhere, anywhere, (1.3,), cubic=False),
     Operation("abs", 1, abs, nowhere, anywhere, (-1.3,), cubic=False, kink=lambda x: x),
     Operation("square", 1, lambda x: x * x, nowhere, anywhere, (1.3,)),
     Operation("sqrt", 1, lambda x: x.sqrt(), lambda x: x < 0, positive, (1.3,)),
