@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "raybound/numbers/interval.h"
 #include "raybound/numbers/interval_arrays.h"
 
 namespace raybound::python {
