@@ -213,7 +213,8 @@ class RunningErrorKind(IntervalKind):
 
     def _between(self, sides: np.ndarray) -> Records:
         ends = sides.astype(self.dtype)
-        value = np.clip(ends[:, :1] / 2 + ends[:, 1:] / 2, ends[:, :1], ends[:, 1:])
+        with np.errstate(invalid="ignore"):
+            value = np.clip(ends[:, :1] / 2 + ends[:, 1:] / 2, ends[:, :1], ends[:, 1:])
         return np.concatenate([value, ends], -1)
 
     def is_canonical(self, records: Records) -> np.ndarray:
@@ -284,6 +285,7 @@ class LinearKind(Kind):
         rows = []
         for place in [*PLACES, *FAR_PLACES]:
             for slope, width in ((0.0, 0.0), (place, 0.0), (0.3, 0.0), (0.3, 0.1), (TINY, TINY), (0.0, abs(place) / 2)):
+                width = min(width, np.finfo(np.float64).max - abs(place))
                 constant = np.array([[place - width, place + width]])
                 slopes = np.full((1, self.variables, 2), [slope - width, slope + width]) / self.variables
                 rows.append(self._make(constant, slopes)[0])
