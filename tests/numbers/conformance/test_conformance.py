@@ -8,8 +8,10 @@ from collections import Counter
 import flint
 import numpy as np
 import pytest
+from tests.numbers.conformance.cell_kinds import TaylorKind
 from tests.numbers.conformance.checks import check_canonical, check_values, describe
-from tests.numbers.conformance.kinds import FLOATS, KINDS, FloatKind, Kind, Records, TaylorKind
+from tests.numbers.conformance.kind import Kind, Records
+from tests.numbers.conformance.kinds import FLOATS, KINDS, FloatKind
 from tests.numbers.conformance.operations import OPERATIONS, PRECISION, Ball, Operation, nowhere
 
 from raybound import _core
