@@ -56,10 +56,11 @@ class CellNumber(Number):
     def _adopt(self, template: Any) -> None:
         if isinstance(template, tuple) and isinstance(template[0], CellNumber):  # an element of an array
             source, where = template
-            cell = tuple(
-                np.broadcast_to(part, (*source.shape, part.shape[-1]))[(*where, slice(None))] for part in source._cell
-            )
-            self._cell = (cell[0], cell[1])
+            cell = source._cell
+            if cell[0].ndim > 1:  # a cell for each
+                whole = [np.broadcast_to(part, (*source.shape, part.shape[-1])) for part in cell]
+                cell = (whole[0][(*where, slice(None))], whole[1][(*where, slice(None))])
+            self._cell = cell
         elif isinstance(template, tuple):
             self._cell = template
         else:

@@ -6,7 +6,7 @@ from collections import Counter
 
 import flint
 import numpy as np
-from tests.numbers.conformance.kinds import Balls, Kind, Records
+from tests.numbers.conformance.kind import Balls, Kind, Records
 from tests.numbers.conformance.operations import PRECISION, Ball, Operation
 
 from raybound import _core

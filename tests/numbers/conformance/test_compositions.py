@@ -7,7 +7,8 @@ from collections import Counter
 import flint
 import numpy as np
 import pytest
-from tests.numbers.conformance.kinds import KINDS, Kind, Records
+from tests.numbers.conformance.kind import Kind, Records
+from tests.numbers.conformance.kinds import KINDS
 from tests.numbers.conformance.operations import PRECISION, Ball, Operation
 from tests.numbers.conformance.trees import Node, UndefinedError, evaluate, exactly, grow
 

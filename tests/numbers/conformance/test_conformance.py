@@ -8,9 +8,11 @@ from collections import Counter
 import flint
 import numpy as np
 import pytest
+from tests.numbers.conformance.cell_kinds import TaylorKind
 from tests.numbers.conformance.checks import check_canonical, check_values, describe
-from tests.numbers.conformance.kinds import FLOATS, KINDS, FloatKind, Kind, Records, RunningErrorKind, TaylorKind
-from tests.numbers.conformance.operations import OPERATIONS, PRECISION, Ball, Operation
+from tests.numbers.conformance.kind import Kind, Records
+from tests.numbers.conformance.kinds import FLOATS, KINDS, FloatKind
+from tests.numbers.conformance.operations import OPERATIONS, PRECISION, Ball, Operation, nowhere
 
 from raybound import _core
 
@@ -68,19 +70,18 @@ def test_special_values(kind: Kind, operation: Operation) -> None:
         picked += [special[rng.integers(0, len(special), 300)] for _ in range(operation.arity - 1)]
         check_values(kind, operation, picked, parameter, kind.points(rng, 3), rng, tally)
     assert tally["inside"] > 30, tally
-    assert tally["unbounded"] > 10 or kind.is_set or isinstance(kind, RunningErrorKind)
+    assert tally["unbounded"] > 10 or not isinstance(kind, TaylorKind)
 
 
 @each_kind
-@each_operation
+@pytest.mark.parametrize("operation", [o for o in OPERATIONS if o.outside is not nowhere], ids=lambda o: o.name)
 def test_outside_of_the_domain(kind: Kind, operation: Operation) -> None:
     """Nothing is left: an interval is empty (a float32 execution may say more), a model unbounded."""
     outside = [-2.5, 0.0, 1.5]
     centers = np.array(
         [x for x in outside if operation.is_outside((Ball(1),) * (operation.arity - 1) + (Ball(x),), -3)]
     )
-    if not len(centers):
-        pytest.skip("defined everywhere")
+    assert len(centers)
     v = max(kind.variables, 1)
     operands = [kind.cells(np.ones(len(centers)), np.zeros((len(centers), v)), np.zeros(len(centers)))]
     operands = operands * (operation.arity - 1)
@@ -101,7 +102,7 @@ def test_less_of_the_operands_gives_less(kind: Kind, operation: Operation) -> No
     rng = np.random.default_rng(79)
     shrunk = 0
     for parameter in operation.parameters:
-        operands = [kind.draw(rng, operation.centers(rng, 1000)) for _ in range(operation.arity)]
+        operands = [kind.draw(rng, operation.centers(rng, 700)) for _ in range(operation.arity)]
         seed = int(rng.integers(0, 2**32))
         parts = [
             kind.part(o, np.random.default_rng(seed if kind.variables else seed + i)) for i, o in enumerate(operands)
@@ -121,6 +122,8 @@ def test_less_of_the_operands_gives_less(kind: Kind, operation: Operation) -> No
             if kind.executed and operation.name == "ward_lobe":  # says little of cosines whose square underflows
                 good &= np.abs(operands[0]).max(-1) > 2.0**-60
                 good &= np.abs(parts[0]).min(-1) > 2.0**-60
+            if not kind.is_set:  # a power is many rounded products
+                slack = slack + 4 * operation.roundings(parameter, 1.0) * kind.unit * np.abs(outer).max(-1)
             lost = (inner[:, 0] < outer[:, 0] - slack) | (inner[:, 1] > outer[:, 1] + slack)
         lost &= good
         i = int(np.argmax(lost))
@@ -129,7 +132,7 @@ def test_less_of_the_operands_gives_less(kind: Kind, operation: Operation) -> No
         )
         with np.errstate(invalid="ignore"):
             shrunk += np.sum(good & (inner[:, 1] - inner[:, 0] < outer[:, 1] - outer[:, 0]))
-    assert shrunk > 10 * len(operation.parameters)
+    assert shrunk > 6 * len(operation.parameters)
 
 
 # --- Width ---
