@@ -17,9 +17,7 @@ KINDS = {
 }
 
 
-def interval_operation(
-    name: str, operands: Rows, kind: str, parameter: float = 0
-) -> Rows:
+def interval_operation(name: str, operands: Rows, kind: str, parameter: float = 0) -> Rows:
     """`operands` (k, 2, n) gives ends (2, n)."""
     rows = [np.ascontiguousarray(ends.T) for ends in operands]
     return np.ascontiguousarray(np.asarray(_core.apply(KINDS[kind], name, rows, parameter), np.float64).T)
