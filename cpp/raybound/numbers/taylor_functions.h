@@ -110,7 +110,8 @@ inline Value exp_at_constant(double c) {
 }
 template <Arithmetic A>
 inline double exp_above(double x) {
-    const auto [value, error] = exp_at_constant<A>(x < 1400 ? x : 1400);  // beyond, exp(high) is unknown anyway
+    if (!(x < 700)) return exp_range(x, x).sup;  // the kernel ends at 745
+    const auto [value, error] = exp_at_constant<A>(x);
     return (value + error) * upward;
 }
 }  // namespace taylor

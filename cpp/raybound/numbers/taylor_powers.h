@@ -24,6 +24,23 @@ inline Ends power_ends(double low, double high, int n) {
     return {bottom - slack * std::abs(bottom) - underflow_bound, top + slack * std::abs(top) + underflow_bound};
 }
 
+// a^-n for n >= 1, as executions invert a^n: `powers`, its range, does not reach 0 and is tame, so that nothing
+// overflows or underflows in between. With v = x^-n: v' = -n v / x, v'' = n (n + 1) v / x^2, and |v'''| =
+// n (n + 1) (n + 2) |v / x^3| is greatest where |x| is least.
+template <int N, Arithmetic A>
+inline TaylorModel<N, A> inverse_power(const TaylorModel<N, A>& a, int n, const Ends& powers) {
+    const double c = a.constant(), least = std::fmax(a.low(), -a.high()), error = n * 0x1p-51;
+    const double value = 1 / power(c, n), first = -n * (value / c), half_second = 0.5 * n * (n + 1.0) * (value / c / c);
+    const double sixth_third =
+        n * (n + 1.0) * (n + 2.0) * (1.0 / 6) / (power(least, n) * (least * least * least)) * (1 + error) * upward;
+    const double low = 1 / powers.high, high = 1 / powers.low;
+    const auto ends = [&] { return Ends{low - 0x1p-52 * std::abs(low), high + 0x1p-52 * std::abs(high)}; };
+    return compose(a,
+                   {value, error * std::abs(value), first, half_second, sixth_third, error * std::abs(first),
+                    error * std::abs(half_second)},
+                   ends, 2 * n + 1);
+}
+
 }  // namespace taylor
 
 // The n-th power, as repeated squaring executes it: at most 2 |n| roundings.
@@ -31,9 +48,14 @@ template <int N, Arithmetic A>
 inline TaylorModel<N, A> power(const TaylorModel<N, A>& a, int n) {
     using Model = TaylorModel<N, A>;
     if (n < -(1 << 20) || n > (1 << 20) || !a.is_known()) return n == 0 ? Model(1) : Model::entire();
-    if (n < 0) return reciprocal(power(a, -n));
-    if (n <= 2) return n == 0 ? Model(1) : n == 1 ? a : square(a);
     const double low = a.low(), high = a.high(), c = a.constant(), largest = std::fmax(-low, high);
+    if (n < 0) {
+        const Ends powers = taylor::power_ends(low, high, -n);
+        const bool is_tamed = is_tame(powers.low) && is_tame(powers.high) && is_tame(c);
+        if (n < -1 && (low > 0 || high < 0) && is_tamed) return taylor::inverse_power(a, -n, powers);
+        return reciprocal(power(a, -n));
+    }
+    if (n <= 2) return n == 0 ? Model(1) : n == 1 ? a : square(a);
     const auto ends = [&] { return taylor::power_ends(low, high, n); };
     const double tail = taylor::power(c, n - 2), value = tail * c * c;
     const double third = taylor::power(largest, n - 3) * (1 + n * 0x1p-51);

@@ -63,8 +63,9 @@ inline TaylorModel<N, A> abs(const TaylorModel<N, A>& a) {
     if (low >= 0) return a;
     if (high <= 0) return -a;
     using Real = TaylorModel<N, Arithmetic::real>;
-    const double width = high - low, slope = (high + low) / width,
-                 band = -2 * low * (high / width) * upward + underflow_bound;
+    // Halved: high - low may overflow.
+    const double width = 0.5 * high - 0.5 * low, slope = (0.5 * high + 0.5 * low) / width,
+                 band = -low * (high / width) * upward + underflow_bound;
     const Real along = Real(a) * Real(slope) + Real(0.5 * band);
     // The band was derived for the exact slope: one rounded by u moves it by u |x| at most.
     const double moved = 0x1p-51 * std::fmax(-low, high);
