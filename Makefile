@@ -29,7 +29,7 @@ export RAYBOUND_BENCH := $(abspath ../shared/bench)
 endif
 endif
 
-.PHONY: help build fmt lint test notebooks soak bench bench-embree bench-error demo wheel levels sanitize sabotage clean
+.PHONY: help build fmt lint test notebooks soak bench bench-embree bench-error bench-numbers demo wheel levels sanitize sabotage clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -100,6 +100,9 @@ bench-embree: $(VENV)/stamp-build $(VENV)/stamp-mesh $(VENV)/stamp-bench ## Meas
 
 bench-error: $(VENV)/stamp-build $(VENV)/stamp-plot ## Measure speed against error on hard cases; ARGS="--plot error.png" draws it
 	$(PY) -m raybound bench error $(ARGS)
+
+bench-numbers: $(VENV)/stamp-build ## Measure intervals and Taylor models beside plain double; ARGS=--readme renews the table
+	$(PY) -m raybound bench numbers $(ARGS)
 
 demo: $(VENV)/stamp-build ## Render the walk-through to ./out
 	$(PY) -m raybound demo $(ARGS)

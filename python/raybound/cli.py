@@ -25,6 +25,7 @@ FIXED: dict[str, dict[str, str]] = {  # by bench, what cannot be chosen, and wha
     "base": {},
     "embree": dict.fromkeys(("width", "height", "threads"), PICTURE),
     "error": {**dict.fromkeys(("width", "height", "threads"), SMALL), "triangles": "it has its own meshes"},
+    "numbers": dict.fromkeys(("width", "height", "threads", "names", "triangles", "rays"), "it draws nothing"),
 }
 READY = {"museum": False, "three_spheres": False, "sphereflake": True}  # whether a number follows, as in sphereflake:4
 
@@ -72,14 +73,17 @@ def _add_render(render: argparse.ArgumentParser) -> None:
 
 def _add_bench(bench: argparse.ArgumentParser) -> None:
     what = (
-        "base: the base tracer (default); embree: beside Embree, one thread; error: speed against error on hard cases"
+        "base: the base tracer (default); embree: beside Embree, one thread; error: speed against error on hard cases; "
+        "numbers: intervals and Taylor models beside double"
     )
-    bench.add_argument("what", nargs="?", choices=["base", "embree", "error"], default="base", help=what)
+    bench.add_argument("what", nargs="?", choices=list(FIXED), default="base", help=what)
     bench.add_argument("--width", type=int, help="of base, pixels (default 1200)")
     bench.add_argument("--height", type=int, help="of base, pixels (default 900)")
     bench.add_argument("--threads", help="of base, numbers of threads (default 1,2)")
     bench.add_argument(
-        "--repeat", type=int, help="runs to take the median of, or rounds to take the best of (default 5; error: 9)"
+        "--repeat",
+        type=int,
+        help="runs to take the median of, or rounds to take the best of (default 5; error, numbers: 9)",
     )
     bench.add_argument("--scenes", help="their names, with commas; of error, hard cases (default all)")
     bench.add_argument("--triangles", type=int, help="of the mesh (default 1000000)")
@@ -160,9 +164,9 @@ def _demo(options: argparse.Namespace) -> None:
 
 
 def _bench(options: argparse.Namespace) -> None:
-    from .bench import base, embree, error, tables  # makes scenes
+    from .bench import base, embree, error, numbers, tables  # makes scenes
 
-    bench = {"base": base, "embree": embree, "error": error}[options.what]
+    bench = {"base": base, "embree": embree, "error": error, "numbers": numbers}[options.what]
     arguments, block = _bench_arguments(options), f"bench {options.what}"
     _check_outputs(options)  # raises before time is spent
     if options.readme is not None:
@@ -221,7 +225,8 @@ def _bench_arguments(options: argparse.Namespace) -> dict[str, Any]:
         given["threads"] = [int(number) for number in numbers]
     fixed = [name for name in FIXED[options.what] if name in given]
     if fixed:
-        raise ValueError(f"--{fixed[0]} cannot be chosen for bench {options.what}: {FIXED[options.what][fixed[0]]}")
+        option = "scenes" if fixed[0] == "names" else fixed[0]
+        raise ValueError(f"--{option} cannot be chosen for bench {options.what}: {FIXED[options.what][fixed[0]]}")
     return given
 
 

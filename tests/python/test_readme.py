@@ -1,4 +1,4 @@
-"""The script in the README makes the picture that is shown beside it."""
+"""The first script in the README makes the picture that is shown beside it; the other one says what it does."""
 
 from __future__ import annotations
 
@@ -12,19 +12,30 @@ import raybound as rb
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+SCRIPTS = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
 
 
 def test_the_script_makes_its_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    scripts = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
-    assert len(scripts) == 1
-    assert len(scripts[0].splitlines()) == 10
+    assert len(SCRIPTS) == 2
+    assert len(SCRIPTS[0].splitlines()) == 10
     monkeypatch.chdir(tmp_path)
-    exec(compile(scripts[0], "README.md", "exec"), {})
+    exec(compile(SCRIPTS[0], "README.md", "exec"), {})
     made, shown = (
         rb.Texture(folder / "three_spheres.png").texels for folder in (tmp_path, ROOT / "notebooks/pictures")
     )
     assert made.shape == shown.shape
     assert np.abs(made - shown).mean() < 0.002
+
+
+def test_the_function_is_bounded_over_its_cell() -> None:
+    names = {"rb": rb}
+    exec(compile(SCRIPTS[1], "README.md", "exec"), names)
+    cosine: rb.TaylorModel = names["cosine"]
+    x, y = np.meshgrid(np.linspace(0.28, 0.32, 9), np.linspace(0.18, 0.22, 9))
+    values = 0.6 / np.sqrt((x - 0.1) ** 2 + y**2 + 0.36)
+    assert all(value in cosine.range() for value in values.ravel())
+    assert cosine.range().wid < 1.1 * np.ptp(values)
+    assert cosine.remainder < 0.1 * cosine.interpolation_bound() < 1e-4
 
 
 def test_what_the_readme_points_to_exists() -> None:

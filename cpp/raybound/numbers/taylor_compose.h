@@ -1,5 +1,5 @@
 // A smooth function of a Taylor model: expanded around the constant term to second order, the rest bounded by the third
-// derivative over the argument's range (certified-interpolants.md, section 2; derivation D31).
+// derivative over the argument's range (certified-interpolants.md, section 2; cpp/derivations.md, D31).
 #pragma once
 
 #include "raybound/numbers/taylor_model.h"
@@ -37,7 +37,8 @@ inline TaylorModel<N, A> within(const Ends& ends, double roundings) {
 template <int N, Arithmetic A, class RangeEnds>
 inline TaylorModel<N, A> compose(const TaylorModel<N, A>& a, const Expansion& g, RangeEnds ends, double roundings = 1) {
     const double n1 = a.first_norm(), n2 = a.second_norm(), r = a.remainder(), known = n1 + n2, deviation = known + r;
-    const double first = std::abs(g.first), half_second = std::abs(g.half_second), squares = n1 * n1;
+    const double first = std::abs(g.first) + g.first_error, squares = n1 * n1;
+    const double half_second = std::abs(g.half_second) + g.half_second_error;
     const double rounding = (0x1p-49 * (std::abs(g.value) + first * known + half_second * squares) + g.value_error) +
                             (g.first_error * known + g.half_second_error * squares) + underflow_bound;
     const double cut = half_second * (n2 * (2 * n1 + n2)) + rounding;

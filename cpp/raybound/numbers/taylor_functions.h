@@ -193,7 +193,8 @@ inline TaylorModel<N, A> arc(const TaylorModel<N, A>& a, double sign, Range (*fu
     const Range at = function(x, x);
     const double w = 1 / std::sqrt((1 - x) * (1 + x)), v = 1 / gap;
     const double sixth_third = (1 + 2 * last * last) * (v * v * std::sqrt(v)) * (1.0 / 6) * upward;
-    return compose(a, {middle(at), radius(at), sign * w, sign * 0.5 * x * (w * w * w), sixth_third}, ends, 2);
+    const double half_second = sign * 0.5 * x * (w * w * w), error = 0x1p-49 * std::abs(half_second);  // 14 roundings
+    return compose(a, {middle(at), radius(at), sign * w, half_second, sixth_third, 0, error}, ends, 2);
 }
 }  // namespace taylor
 
@@ -211,7 +212,7 @@ template <int N, Arithmetic A>
 inline TaylorModel<N, A> atan(const TaylorModel<N, A>& a) {
     if (!a.is_known()) return a;
     const auto ends = [&] { return taylor::ends(a, atan_range); };
-    const double x = a.constant(), first_x = std::fmax(0.0, std::abs(x) - a.deviation()) * (1 - 0x1p-40);
+    const double x = a.constant(), first_x = std::fmax(0.0, std::abs(x) - a.deviation() * upward) * (1 - 0x1p-40);
     const double last_x = std::abs(x) + a.deviation();
     if (!(last_x < 0x1p60)) return within<N, A>(ends(), 2);
     const Range at = atan_range(x, x);

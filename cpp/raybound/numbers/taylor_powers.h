@@ -74,12 +74,13 @@ inline TaylorModel<N, A> power(const TaylorModel<N, A>& a, int n) {
 // type and rounds once.
 template <int N, Arithmetic A>
 inline TaylorModel<N, A> ward_lobe(const TaylorModel<N, A>& cosine, double sigma) {
+    static_assert(A != Arithmetic::float64, "an execution in double rounds the exponent, which nothing here bounds");
     if (!cosine.is_known()) return cosine;
     if (cosine.high() < 0) return ward_lobe(-cosine, sigma);
     const double low = cosine.low(), high = cosine.high(), s2 = sigma * sigma, x = cosine.constant();
     const auto exponent = [s2](double y) { return -((1 - y) * (1 + y)) / (y * y * s2); };
-    const auto lobe = [&](double y) {  // enclosed: five roundings in the exponent
-        const double e = exponent(y), error = 0x1p-50 * std::abs(e);
+    const auto lobe = [&](double y) {  // enclosed: seven roundings in the exponent, one of its ends
+        const double e = exponent(y), error = 0x1p-49 * std::abs(e);
         return exp_range(e - error, e + error);
     };
     const double farthest = std::fmax(-low, high);

@@ -35,7 +35,7 @@ template <int N, Arithmetic A>
 inline Verdict operator==(const TaylorModel<N, A>& a, const TaylorModel<N, A>& b) {
     const auto difference = exact_difference(b, a);
     if (difference.low() > 0 || difference.high() < 0) return Verdict::no;
-    return difference.is_constant() ? Verdict::yes : Verdict::unknown;
+    return difference.is_constant() && difference.constant() == 0 ? Verdict::yes : Verdict::unknown;
 }
 
 // What holds both: their mean, and half of how far they are apart.

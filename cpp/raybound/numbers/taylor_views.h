@@ -47,7 +47,7 @@ inline double interpolation_bound(const TaylorModel<N, A>& f) {
     return (std::fmax(positive, negative) + 2 * f.remainder()) * upward;
 }
 
-// The value at a point of [-1, 1]^N: what is evaluated in double, widened by its roundings (at most 8 for each term,
+// The value at a point of [-1, 1]^N: what is evaluated in double, widened by its roundings (at most 14 for each term,
 // two of each coordinate included) and by the remainder.
 template <int N, Arithmetic A>
 inline Interval<double> value_at(const TaylorModel<N, A>& f, const double* x) {
@@ -58,8 +58,8 @@ inline Interval<double> value_at(const TaylorModel<N, A>& f, const double* x) {
         for (int j = i + 1; j < N; ++j) inner += f.mixed(i, j) * x[j];
         sum += inner * x[i];
     }
-    const double known = std::abs(f.constant()) + f.first_norm() + f.second_norm();
-    const Interval<double> off(0, (f.remainder() + 0x1p-48 * known + underflow_bound) * upward);
+    if (!std::isfinite(sum)) return range(f);
+    const Interval<double> off(0, (f.remainder() + 0x1p-48 * f.known() + underflow_bound) * upward);
     return Interval<double>(sum) + off - off;
 }
 

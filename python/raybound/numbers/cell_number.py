@@ -35,7 +35,7 @@ def make_cell(
         ) from None
     if (half < 0).any():
         raise ValueError(f"{who}: radii must be >= 0, got {_validate._culprit(half, half >= 0)}")
-    middle = np.ascontiguousarray(middle)
+    middle = np.array(middle)  # the caller's own stays as it is
     if enlarge == "not":
         return middle, np.ascontiguousarray(half)
     wider: npt.NDArray[np.float64] = _core.cell_radii(middle, np.ascontiguousarray(half), enlarge == "derived").reshape(

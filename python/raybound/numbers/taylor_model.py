@@ -52,6 +52,12 @@ class TaylorModel(CellNumber):
     def _n(self) -> int:
         return int(self._cell[0].shape[-1])
 
+    def _set_constant(self, records: npt.NDArray[np.float64], values: npt.NDArray[np.float64]) -> None:
+        records[..., 0] = values
+        if self.arithmetic == "float32":  # an execution has the nearest float instead
+            with np.errstate(over="ignore"):
+                records[..., -1] = np.abs(values - values.astype(np.float32))  # exact
+
     def _set_interval(self, records: npt.NDArray[np.float64], interval: Interval) -> None:
         records[..., 0] = interval.mid
         records[..., -1] = interval.rad
