@@ -32,7 +32,7 @@ endif
 .PHONY: help build fmt lint test notebooks soak bench bench-embree bench-error bench-numbers demo wheel levels sanitize sabotage clean
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 # --- What is installed, and when again -----------------------------------------------------------------------------------
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+from fractions import Fraction
+
 import flint
 import numpy as np
 import pytest
@@ -62,3 +65,54 @@ def test_values_next_to_overflow() -> None:
         assert all(end in x([end, 0.0]) for end in ends)
         assert x.range().inf >= ends[0] - 1e-9 * top
         assert x.range().sup <= ends[1] + 1e-9 * top
+
+
+def coefficients(x: rb.TaylorModel) -> dict[tuple[int, ...], float]:
+    """By the variables that they multiply."""
+    n = len(x.linear)
+    pairs = {(i, j): x.quadratic[i, j] for i in range(n) for j in range(i, n)}
+    return {(): x.constant, **{(i,): x.linear[i] for i in range(n)}, **pairs}
+
+
+def test_roundings_of_a_product() -> None:
+    """Of what is multiplied, 2^-50 is kept for the coefficients' roundings (D30)."""
+    rng, largest = np.random.default_rng(7), 0.0
+    for _ in range(200):
+        variables = rb.TaylorModel.variables(rng.normal(size=4), rng.uniform(0.5, 1, 4))
+        a, b = (sum(v * float(s) for v, s in zip(variables, rng.normal(size=4), strict=True)) for _ in range(2))
+        a, b = a + rb.square(variables[0]), b * variables[1]
+        exact: dict[tuple[int, ...], Fraction] = {}
+        for (i, x), (j, y) in itertools.product(coefficients(a).items(), coefficients(b).items()):
+            key = tuple(sorted(i + j))
+            exact[key] = exact.get(key, Fraction(0)) + Fraction(float(x)) * Fraction(float(y))
+        error = sum(abs(Fraction(float(value)) - exact[key]) for key, value in coefficients(a * b).items())
+        sizes = [sum(abs(float(value)) for value in coefficients(x).values()) for x in (a, b)]
+        largest = max(largest, float(error) / (2.0**-50 * sizes[0] * sizes[1]))
+    assert 0.02 < largest <= 1  # seen: 0.07
+
+
+FUNCTIONS = {  # and where their arguments lie
+    "sqrt": (0.5, 4), "rsqrt": (0.5, 4), "reciprocal": (0.5, 4), "exp": (-3, 3), "log": (0.5, 4), "sin": (-3, 3),
+    "cos": (-3, 3), "tan": (-1, 1), "asin": (-0.8, 0.8), "acos": (-0.8, 0.8), "atan": (-2, 2), "power": (0.5, 2),
+    "ward_lobe": (0.6, 1.0), "abs": (-1, 1),
+}  # fmt: skip
+
+
+def test_what_functions_leave_out() -> None:
+    """How much of the remainder the functions need, at corners and between (D31, D32)."""
+    rng, largest = np.random.default_rng(8), dict.fromkeys(FUNCTIONS, 0.0)
+    for name, (low, high) in FUNCTIONS.items():
+        second = {"power": (5,), "ward_lobe": (0.4,)}.get(name, ())
+        for _ in range(100):
+            c, r = rng.uniform(low, high), 10 ** rng.uniform(-2, -0.7) * (0.3 if name == "ward_lobe" else 1)
+            cell = rb.TaylorModel.variables([c, 0.0], [r / 2, r / 2])
+            f = getattr(rb, name)(cell[0] + cell[1], *second)
+            assert np.isfinite(f.remainder)
+            for s in (-1.0, -0.5, 0.5, 1.0):
+                x = c + r * s
+                value = float(getattr(rb, name)(np.float64(x), *second))
+                polynomial = f.constant + f.linear.sum() * s + f.quadratic.sum() * s * s
+                if f.remainder < 1e-10:  # |x| of one sign: nothing is left out
+                    continue
+                largest[name] = max(largest[name], abs(value - polynomial) / f.remainder)
+    assert all(0.5 < share <= 1 for share in largest.values()), largest

@@ -1,4 +1,5 @@
-// A quadratic polynomial in N variables with a certified remainder (certified-interpolants.md, section 2):
+// A quadratic polynomial in N variables with a certified remainder (certified-interpolants.md, section 2;
+// cpp/derivations.md, D30):
 //
 //   f(x) in c + sum l_i x_i + sum q_i x_i^2 + sum_{i<j} x_ij x_i x_j + [-r, r]   for x in [-1, 1]^N.
 //
@@ -63,6 +64,7 @@ class TaylorModel {
         remainder_ = o.remainder_;
         return *this;
     }
+    // A plain number, which executions have exactly: for float32 a float.
     explicit TaylorModel(double constant) : known_(std::abs(constant)) {
         polynomial_.part[0] = Four{constant, 0, 0, 0};
     }

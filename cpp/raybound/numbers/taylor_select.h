@@ -1,4 +1,5 @@
-// Taylor models where a function has a kink: comparisons, what holds either of two models, |x|, minimum and maximum.
+// Taylor models where a function has a kink: comparisons, what holds either of two models, |x|, minimum and maximum
+// (cpp/derivations.md, D32).
 #pragma once
 
 #include "raybound/numbers/taylor_model.h"

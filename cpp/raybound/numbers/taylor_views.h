@@ -1,5 +1,5 @@
 // What a Taylor model says: its range, how far multilinear interpolation can be off, its value at a point; and the same
-// function over a part of the domain, or over other variables.
+// function over a part of the domain, or over other variables (cpp/derivations.md, D33).
 #pragma once
 
 #include <algorithm>

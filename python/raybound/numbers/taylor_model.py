@@ -22,9 +22,9 @@ class TaylorModel(CellNumber):
     xi_i = (x_i - center_i) / radius_i the function lies within `remainder` of
     constant + sum linear_i xi_i + sum_{i<=j} quadratic_ij xi_i xi_j, everywhere on the cell. The roundings of the
     coefficients are in the remainder. With arithmetic "float32" the remainder also covers a float32 execution: the
-    model then holds both the real value and what the same operations in the same order give in float32
-    (certified-interpolants.md, sections 2 and 9). Where nothing can be said (a root of what may be negative) the
-    remainder is infinite, and stays so.
+    model then holds both the real value and what the same operations in the same order give in float32, plain numbers
+    rounded to it (certified-interpolants.md, sections 2 and 9). Where nothing can be said (a root of what may be
+    negative) the remainder is infinite, and stays so.
     """
 
     __slots__ = ()
