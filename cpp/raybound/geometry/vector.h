@@ -74,8 +74,7 @@ inline T length(const Vec3<T>& a) {
 }
 template <class T>
 inline Vec3<T> normalize(const Vec3<T>& a) {
-    const T inverse = T(1) / length(a);
-    return a * inverse;
+    return a * rsqrt(dot(a, a));
 }
 template <class T>
 inline Vec3<T> absolute(const Vec3<T>& a) {

@@ -5,6 +5,7 @@
 // interval or a Taylor model can follow where today `float` draws and `double` checks.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -100,6 +101,15 @@ constexpr T sum_of_products(const T& a, const T& b, const T& c, const T& d, cons
 template <class T>
 constexpr T difference_of_products(const T& a, const T& b, const T& c, const T& d) {
     return a * b - c * d;
+}
+
+// constant + sum slopes[i] x[i], from left to right without the slopes that are 0.
+template <class T, std::size_t N>
+constexpr T affine(double constant, const std::array<double, N>& slopes, const std::array<T, N>& x) {
+    T sum(constant);
+    for (std::size_t i = 0; i < N; ++i)
+        if (slopes[i] != 0) sum = sum + T(slopes[i]) * x[i];
+    return sum;
 }
 
 template <class T>

@@ -66,6 +66,13 @@ inline TaylorModel<N, A> reciprocal(const TaylorModel<N, A>& a, double roundings
 template <int N, Arithmetic A>
 inline TaylorModel<N, A> operator/(const TaylorModel<N, A>& a, const TaylorModel<N, A>& b) {
     if (a.is_constant() && a.constant() == 1) return reciprocal(b);
+    // The same everywhere, up to a remainder r of at most half of it: |1/(c + e) - 1/c| <= r / (|c| (|c| - r)).
+    const double c = b.constant(), r = b.remainder();
+    if (b.first_norm() + b.second_norm() == 0 && is_tame(c) && r <= 0.5 * std::abs(c)) {
+        const double inverse = 1 / c, size = std::abs(inverse);
+        return a * TaylorModel<N, A>::certified(TaylorModel<N, A>(inverse).polynomial(),
+                                                (2 * r * size + 0x1p-52) * size);
+    }
     return a * reciprocal(b, 0);
 }
 

@@ -176,6 +176,22 @@ class TaylorModel {
                      sizes);
     }
 
+    // constant + sum slopes[i] x[i], of which an execution rounds each product and each sum.
+    template <std::size_t M>
+    friend TaylorModel affine(double constant, const std::array<double, M>& slopes,
+                              const std::array<TaylorModel, M>& x) {
+        Polynomial sum = TaylorModel(constant).polynomial_;
+        double sizes = std::abs(constant), remainder = 0;
+        for (std::size_t i = 0; i < M; ++i) {
+            if (slopes[i] == 0) continue;
+            sum = sum + x[i].polynomial_ * slopes[i];
+            sizes += x[i].known_ * std::abs(slopes[i]);
+            remainder += x[i].remainder_ * std::abs(slopes[i]);
+        }
+        static_assert(M <= 4, "coefficients are off by gamma_(M + 1)");
+        return fused(sum, remainder * (1 + 2 * Run::unit_roundoff), 0, sizes, (M + 1) * sizes);
+    }
+
   private:
     RAYBOUND_INLINE double rounding() const { return 0x1p-52 * magnitude() + underflow_bound; }
 

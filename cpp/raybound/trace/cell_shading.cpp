@@ -35,15 +35,16 @@ Met<W> meet_plane(const CellSurface& plane, const Vec3<W>& origin, const Vec3<W>
 template <class T, int N>
 BundleRay<T> family_ray(const RayFamily<N>& family, const std::array<Wide<T>, std::size_t(N)>& x) {
     using W = Wide<T>;
-    Vec3<W> origin(family.origin), direction(family.direction);
-    const auto add = [](W& to, double slope, const W& variable) {
-        if (slope != 0) to = to + W(slope) * variable;
+    Vec3<W> origin, direction;
+    std::array<double, std::size_t(N)> slopes;
+    const auto component = [&](const Vec3d& middle, const std::array<Vec3d, std::size_t(N)>& all, int axis) {
+        for (std::size_t i = 0; i < N; ++i) slopes[i] = all[i][axis];
+        return affine(middle[axis], slopes, x);
     };
-    for (std::size_t i = 0; i < N; ++i)
-        for (int axis = 0; axis < 3; ++axis) {
-            add(origin[axis], family.origin_slopes[i][axis], x[i]);
-            add(direction[axis], family.direction_slopes[i][axis], x[i]);
-        }
+    for (int axis = 0; axis < 3; ++axis) {
+        origin[axis] = component(family.origin, family.origin_slopes, axis);
+        direction[axis] = component(family.direction, family.direction_slopes, axis);
+    }
     return {Vec3<T>(origin), Vec3<T>(normalize(direction))};
 }
 

@@ -61,7 +61,7 @@ inline Incoming<T> incoming(const Light& light, const Vec3<T>& p) {
     if (light.kind == LightKind::directional) return {-Vec3<T>(light.direction), Vec3<T>(light.intensity)};
     const Vec3<T> to_light = Vec3<T>(light.position) - p;
     const T squared = dot(to_light, to_light);
-    const Vec3<T> l = to_light * (T(1) / sqrt(squared));
+    const Vec3<T> l = to_light * rsqrt(squared);
     Vec3<T> e(light.intensity);
     if (light.falloff) e = saturate(Vec3<T>{e.x / squared, e.y / squared, e.z / squared});
     if (light.kind == LightKind::spot) e = select(inside_cone(light, p), e, Vec3<T>{});
