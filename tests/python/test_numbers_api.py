@@ -200,7 +200,7 @@ def test_variables() -> None:
         ((0, 0), -1, "TaylorModel: radii must be >= 0, got -1"),
         ((0, NAN), 1, "TaylorModel: centers must be finite, got nan"),
         ((0, 0), INF, "TaylorModel: radii must be finite, got inf"),
-        ((0, 0), (1, 1, 1), "TaylorModel: radii must broadcast with centers"),
+        ((0, 0), (1, 1, 1), "TaylorModel: centers and radii must broadcast"),
     ],
 )
 def test_variables_refuse(centers: Any, radii: Any, message: str) -> None:

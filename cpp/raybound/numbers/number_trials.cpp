@@ -47,11 +47,11 @@ void count_trial(TrialCounts& counts, Operation operation, bool up, const Tuple<
     Judgement j;
     if (is_special(operation, t.a, t.b, t.c)) {
         ++counts.special;
-        const T nearest = to_nearest(operation, t.a, t.b, t.c);
+        const T nearest = apply(operation, t.a, t.b, t.c);
         j = same_bits(nearest, result) ? Judgement::tight : Judgement::wrong;
     } else {
         j = judge(operation, up, t.a, t.b, t.c, result);
-        const T nearest = to_nearest(operation, t.a, t.b, t.c), size = std::abs(nearest);
+        const T nearest = apply(operation, t.a, t.b, t.c), size = std::abs(nearest);
         const bool exact = sign_of_excess(operation, t.a, t.b, t.c, nearest) == 0;
         ++(exact ? counts.exact : counts.inexact);
         counts.underflows += !exact && size < std::numeric_limits<T>::min();
@@ -110,15 +110,9 @@ TrialCounts rounding_trials(const std::string& operation, bool wide, const std::
                             std::uint64_t seed, std::uint64_t count) {
     using namespace trials;
     const Operation op = operation_named(operation);
-    if (implementation == "portable")
-        return wide ? run<PortableRounding, double>(op, seed, count) : run<PortableRounding, float>(op, seed, count);
-#ifdef __AVX512F__
-    if (implementation == "hardware")
-        return wide ? run<HardwareRounding, double>(op, seed, count) : run<HardwareRounding, float>(op, seed, count);
-#endif
-    throw std::invalid_argument(
-        "rounding_trials: implementation must be 'portable' or, with AVX-512, 'hardware', got '" + implementation +
-        "'");
+    return with_rounding("rounding_trials", implementation, [&]<class Rounding>(Rounding) {
+        return wide ? run<Rounding, double>(op, seed, count) : run<Rounding, float>(op, seed, count);
+    });
 }
 
 }  // namespace raybound

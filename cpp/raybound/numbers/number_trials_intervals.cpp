@@ -13,27 +13,6 @@ namespace trials {
 
 namespace {
 
-template <class I>
-I apply(Operation operation, const I& a, const I& b, const I& c) {
-    switch (operation) {
-        case Operation::add:
-            return a + b;
-        case Operation::subtract:
-            return a - b;
-        case Operation::multiply:
-            return a * b;
-        case Operation::divide:
-            return a / b;
-        case Operation::sqrt:
-            return sqrt(a);
-        case Operation::fma:
-            return fma(a, b, c);
-        case Operation::square:
-            break;
-    }
-    return square(a);
-}
-
 // Ends in order, both finite.
 template <class T>
 struct Ends {
@@ -155,15 +134,9 @@ TrialCounts interval_trials(const std::string& operation, bool wide, const std::
                             std::uint64_t seed, std::uint64_t count) {
     using namespace trials;
     const Operation op = operation_named(operation);
-    if (implementation == "portable")
-        return wide ? run<PortableRounding, double>(op, seed, count) : run<PortableRounding, float>(op, seed, count);
-#ifdef __AVX512F__
-    if (implementation == "hardware")
-        return wide ? run<HardwareRounding, double>(op, seed, count) : run<HardwareRounding, float>(op, seed, count);
-#endif
-    throw std::invalid_argument(
-        "interval_trials: implementation must be 'portable' or, with AVX-512, 'hardware', got '" + implementation +
-        "'");
+    return with_rounding("interval_trials", implementation, [&]<class Rounding>(Rounding) {
+        return wide ? run<Rounding, double>(op, seed, count) : run<Rounding, float>(op, seed, count);
+    });
 }
 
 }  // namespace raybound

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "raybound/numbers/number_trials_exact.h"
+#include "raybound/numbers/rounding.h"
 
 namespace raybound::trials {
 
@@ -45,8 +46,11 @@ inline int sign_of_excess(Operation operation, double a, double b, double c, dou
     return excess.add_product(a, a).add(r, -1).sign();
 }
 
-template <class T>
-T to_nearest(Operation operation, T a, T b, T c) {
+// Of plain numbers, rounded to nearest, or of intervals.
+template <class X>
+X apply(Operation operation, const X& a, const X& b, const X& c) {
+    using std::fma;
+    using std::sqrt;
     switch (operation) {
         case Operation::add:
             return a + b;
@@ -57,13 +61,25 @@ T to_nearest(Operation operation, T a, T b, T c) {
         case Operation::divide:
             return a / b;
         case Operation::sqrt:
-            return std::sqrt(a);
+            return sqrt(a);
         case Operation::fma:
-            return std::fma(a, b, c);
+            return fma(a, b, c);
         case Operation::square:
             break;
     }
-    return a * a;
+    return square(a);
+}
+
+// Calls f with the way of rounding of this name.
+template <class Function>
+auto with_rounding(const char* who, const std::string& implementation, Function f) {
+    if (implementation == "portable") return f(PortableRounding());
+#ifdef __AVX512F__
+    if (implementation == "hardware") return f(HardwareRounding());
+#endif
+    throw std::invalid_argument(std::string(who) +
+                                ": implementation must be 'portable' or, with AVX-512, 'hardware', got '" +
+                                implementation + "'");
 }
 
 // Where rounding has nothing to do: an operand that is no number, a division by zero, a root of a negative number.

@@ -201,6 +201,15 @@ def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDA
     return array
 
 
+def broadcast(who: str, **arrays: npt.NDArray[Any]) -> list[npt.NDArray[Any]]:
+    """The arrays in their common shape; ValueError with their names if they have none."""
+    try:
+        return list(np.broadcast_arrays(*arrays.values()))
+    except ValueError:
+        shapes = " and ".join(str(array.shape) for array in arrays.values())
+        raise ValueError(f"{who}: {' and '.join(arrays)} must broadcast, got shapes {shapes}") from None
+
+
 def is_weak(value: object) -> bool:
     """Whether a plain number takes the precision of what it meets, as Python's own do in NumPy."""
     return type(value) in (int, float)

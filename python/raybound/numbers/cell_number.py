@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _core, _validate
-from .base import Number, plain
+from .base import Number, broadcast, plain
 from .interval import Interval
 
 Cell = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
@@ -27,12 +27,7 @@ def make_cell(
     if not middle.ndim or middle.shape[-1] not in dimensions:
         wanted = " or ".join(f"(..., {n})" for n in dimensions)
         raise ValueError(f"{who}: centers must have shape {wanted}, got {middle.shape}")
-    try:
-        middle, half = np.broadcast_arrays(middle, half)
-    except ValueError:
-        raise ValueError(
-            f"{who}: radii must broadcast with centers, got shapes {half.shape} and {middle.shape}"
-        ) from None
+    middle, half = broadcast(who, centers=middle, radii=half)
     if (half < 0).any():
         raise ValueError(f"{who}: radii must be >= 0, got {_validate._culprit(half, half >= 0)}")
     middle = np.array(middle)  # the caller's own stays as it is

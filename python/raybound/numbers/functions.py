@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .. import _validate
-from .base import Number, apply, is_weak, operate, plain
+from .base import Number, apply, broadcast, is_weak, operate, plain
 
 
 def _evaluate(name: str, operands: dict[str, object], parameter: float = 0.0) -> Any:
@@ -23,12 +23,7 @@ def _evaluate(name: str, operands: dict[str, object], parameter: float = 0.0) ->
     arrays = {key: plain(name, key, value) for key, value in operands.items()}
     strong = [array.dtype for key, array in arrays.items() if not is_weak(operands[key])]
     dtype = np.result_type(*strong) if strong else np.dtype(np.float64)
-    try:
-        np.broadcast_shapes(*[array.shape for array in arrays.values()])
-    except ValueError:
-        shapes = " and ".join(str(array.shape) for array in arrays.values())
-        raise ValueError(f"{name}: {' and '.join(arrays)} must broadcast, got shapes {shapes}") from None
-    records = [np.asarray(array, dtype)[..., np.newaxis] for array in arrays.values()]
+    records = [np.asarray(array, dtype)[..., np.newaxis] for array in broadcast(name, **arrays)]
     result = apply(str(dtype), name, records, parameter)[..., 0]
     if np.isnan(result).any():
         at = tuple(np.argwhere(np.isnan(result))[0])

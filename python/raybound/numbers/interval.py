@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _core
-from .base import Number, is_weak, operate, plain
+from .base import Number, broadcast, is_weak, operate, plain
 
 KIND = {np.dtype(np.float32): "interval_float32", np.dtype(np.float64): "interval_float64"}
 
@@ -49,10 +49,7 @@ class Interval(Number):
         )
         if dtype == np.float32 and any(not np.array_equal(a, a.astype(dtype)) for a in (low, high)):
             dtype = np.dtype(np.float64)
-        try:
-            low, high = np.broadcast_arrays(low, high)
-        except ValueError:
-            raise ValueError(f"Interval: lo and hi must broadcast, got shapes {low.shape} and {high.shape}") from None
+        low, high = broadcast("Interval", lo=low, hi=high)
         good = (low <= high) & (low < np.inf) & (high > -np.inf)
         if not good.all():
             at = tuple(np.argwhere(~good)[0])

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _validate
-from .base import Number, apply, is_weak, plain
+from .base import Number, apply, broadcast, is_weak, plain
 from .interval import KIND as INTERVAL
 from .interval import Interval
 
@@ -33,12 +33,7 @@ class RunningError(Number):
         if (errors < 0).any():
             raise ValueError(f"RunningError: error must be >= 0, got {_validate._culprit(errors, errors >= 0)}")
         dtype = np.dtype(np.float32) if values.dtype == np.float32 else np.dtype(np.float64)
-        try:
-            values, errors = np.broadcast_arrays(values, errors)
-        except ValueError:
-            raise ValueError(
-                f"RunningError: value and error must broadcast, got shapes {values.shape} and {errors.shape}"
-            ) from None
+        values, errors = broadcast("RunningError", value=values, error=errors)
         bounds = errors.astype(dtype)
         bounds = np.where(
             bounds < errors, np.nextafter(bounds, dtype.type(np.inf)), bounds
