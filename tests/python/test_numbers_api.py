@@ -15,12 +15,21 @@ import raybound as rb
 NAN, INF = float("nan"), float("inf")
 ONE = (1.5, -0.25)
 X, Y = rb.TaylorModel.variables(ONE, (0.25, 0.125))
+U, V = rb.LinearInterval.variables(ONE, (0.25, 0.125))
+CELLS = rb.LinearInterval.variables([[1.5], [3], [5]], 0.25, rule="hansen")[0]
 SAMPLES: list[Any] = [
     rb.Interval(1, 2),
     rb.Interval(np.float32([1, 2]), np.float32([3, 4])),
     rb.Interval([[1.0], [2.0]], [3.0, 4.0]),
     X * Y,
     rb.exp(X * np.array([0.5, 1.5, 2.5])),
+    rb.RunningError(1.5, 0.25),
+    rb.RunningError(np.float32([1, 2]), np.float32(0.1)),
+    rb.RunningError([[1.0], [2.0]], [0.5, 0]),
+    rb.sqrt(rb.RunningError([-1, 0, 1])),
+    U * V,
+    rb.exp(U * np.array([0.5, 1.5, 2.5])),
+    CELLS,
 ]
 each_sample = pytest.mark.parametrize("number", SAMPLES, ids=repr)
 
@@ -148,7 +157,7 @@ def test_indexing(number: Any) -> None:
     assert number[:1].shape == (1, *number.shape[1:])
     assert number[np.newaxis].shape == (1, *number.shape)
     assert number[np.ones(len(number), bool)] == number
-    if len(number) > 1:
+    if len(number) > 1 and number is not CELLS:  # its elements are functions over different cells
         assert (number[:1] - number[1:2]).shape == (1, *number.shape[1:])
     with pytest.raises(IndexError):
         number[len(number)]
@@ -168,8 +177,30 @@ def test_copies_are_equal(number: Any) -> None:
 def test_numbers_cannot_be_changed(number: Any) -> None:
     with pytest.raises((AttributeError, TypeError)):
         number._records = None
-    with pytest.raises(ValueError, match="read-only"):
-        number._records[...] = 0
+    for one in (number, pickle.loads(pickle.dumps(number)), number[[0]] if number.shape else number):
+        parts = (one._records, *getattr(one, "_cell", ()))
+        for part in parts:
+            with pytest.raises(ValueError, match="read-only"):
+                part[...] = 0
+
+
+def test_equal_numbers_have_equal_hashes() -> None:
+    for make in (rb.Interval, rb.RunningError, lambda x: rb.RunningError(np.float32(x)), lambda x: U * x):
+        plus, minus = make(0.0), make(-0.0)
+        assert plus == minus
+        assert hash(plus) == hash(minus)
+
+
+@pytest.mark.parametrize("inexact", [2**53 + 1, -(10**30), np.uint64(2**64 - 1), [0, 2**53 + 1]], ids=repr)
+def test_what_rounding_would_lose_is_refused(inexact: Any) -> None:
+    """float64 does not hold these: an enclosure of what it makes of them would not hold them either."""
+    uses = [rb.Interval, rb.RunningError, lambda x: rb.RunningError(0, np.abs(x)), rb.Interval.entire.contains]
+    uses += [lambda x, number=number: number + x for number in (rb.Interval(1), rb.RunningError(1), X, U)]
+    for use in uses:
+        with pytest.raises(ValueError, match=r"must be a float64 exactly, got -?\d{16,}"):
+            use(inexact)
+    assert 2**60 in rb.Interval(2**60)
+    assert rb.RunningError([2**200, 1]).value.tolist() == [2.0**200, 1]
 
 
 def test_repr_is_an_expression() -> None:

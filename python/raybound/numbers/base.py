@@ -77,10 +77,11 @@ class Number:
         """Whether both are of one class and shape and hold the same, number for number."""
         if type(other) is not type(self):
             return NotImplemented
-        return self._kind == other._kind and np.array_equal(self._records, other._records)
+        return self._kind == other._kind and np.array_equal(self._records, other._records, equal_nan=True)
 
     def __hash__(self) -> int:
-        return hash((self._kind, self.shape, self._records.tobytes()))
+        records = np.where(np.isnan(self._records), np.nan, self._records + 0)  # equal numbers alike: -0 as 0, one NaN
+        return hash((self._kind, self.shape, records.tobytes()))
 
     def __setattr__(self, name: str, value: object) -> None:
         if hasattr(self, name):
@@ -183,8 +184,10 @@ def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
     return widest._made(widest._kind, records, widest)
 
 
-def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDArray[Any]:
-    """Numbers as an array, float32 if they were, else float64. TypeError; ValueError for NaN (and infinity)."""
+def plain(who: str, name: str, value: object, *, finite: bool = True, rounded: bool = False) -> npt.NDArray[Any]:
+    """Numbers as an array, float32 if they were, else float64. TypeError; ValueError for NaN (and infinity), and for
+    what float64 does not hold unless it may be `rounded`: what is made of it would not enclose it.
+    """
     # A class that leaves no operator to NumPy: a Number, or a shape.
     if getattr(type(value), "__array_ufunc__", 0) is None:
         raise _NotOursError(f"{who}: {name} must be a number or an array of numbers, got a {type(value).__name__}")
@@ -192,12 +195,15 @@ def plain(who: str, name: str, value: object, *, finite: bool = True) -> npt.NDA
         given = _validate.numeric(who, name, value, "a number or an array of numbers")
     except TypeError as fault:
         raise _NotOursError(str(fault)) from None
-    array = np.asarray(given, np.float32 if given.dtype in (np.float16, np.float32) else np.float64)
+    with np.errstate(over="ignore", under="ignore"):
+        array = np.asarray(given, np.float32 if given.dtype in (np.float16, np.float32) else np.float64)
     good = np.isfinite(array) if finite else ~np.isnan(array)
     if not good.all():
         raise ValueError(
             f"{who}: {name} must be {'finite' if finite else 'a number'}, got {_validate._culprit(array, good)}"
         )
+    if not rounded:
+        _check_exact(who, name, value, array)
     return array
 
 
@@ -208,6 +214,32 @@ def broadcast(who: str, **arrays: npt.NDArray[Any]) -> list[npt.NDArray[Any]]:
     except ValueError:
         shapes = " and ".join(str(array.shape) for array in arrays.values())
         raise ValueError(f"{who}: {' and '.join(arrays)} must broadcast, got shapes {shapes}") from None
+
+
+def _check_exact(who: str, name: str, value: object, array: npt.NDArray[Any]) -> None:
+    """ValueError unless `array` holds what `value` says: integers beyond 2^53 and long doubles may be rounded."""
+    given = np.asarray(value)
+    if given.dtype.kind == "f":
+        good = array == given
+    elif (np.abs(array) < 2.0**53).all():
+        return
+    else:  # one by one, as Python's integers
+        good = np.array([int(a) == int(g) for a, g in zip(array.flat, given.flat)]).reshape(array.shape)
+    if not good.all():
+        raise ValueError(f"{who}: {name} must be a float64 exactly, got {_validate._culprit(given, good)}")
+
+
+def narrowed(who: str, name: str, array: npt.NDArray[Any], dtype: np.dtype[Any]) -> npt.NDArray[Any]:
+    """Finite numbers rounded to `dtype`. ValueError where that overflows."""
+    with np.errstate(over="ignore", under="ignore"):
+        result = np.asarray(array, dtype)
+    good = np.isfinite(result)
+    if not good.all():
+        raise ValueError(
+            f"{who}: {name} must fit in {dtype} (at most {np.finfo(dtype).max:.8g}), "
+            f"got {_validate._culprit(array, good)}"
+        )
+    return result
 
 
 def is_weak(value: object) -> bool:

@@ -60,6 +60,8 @@ class CellNumber(Number):
             self._cell = template
         else:
             self._cell = template._cell
+        for part in self._cell:  # pickles and some indexed arrays come writeable
+            part.flags.writeable = False
 
     def _extra(self) -> Cell:
         return self._cell

@@ -14,16 +14,17 @@ from typing import Any
 import numpy as np
 
 from .. import _validate
-from .base import Number, apply, broadcast, is_weak, operate, plain
+from .base import Number, apply, broadcast, is_weak, narrowed, operate, plain
 
 
 def _evaluate(name: str, operands: dict[str, object], parameter: float = 0.0) -> Any:
     if any(isinstance(value, Number) for value in operands.values()):
         return operate(name, *operands.values(), parameter=parameter)
-    arrays = {key: plain(name, key, value) for key, value in operands.items()}
+    arrays = {key: plain(name, key, value, rounded=True) for key, value in operands.items()}
     strong = [array.dtype for key, array in arrays.items() if not is_weak(operands[key])]
     dtype = np.result_type(*strong) if strong else np.dtype(np.float64)
-    records = [np.asarray(array, dtype)[..., np.newaxis] for array in broadcast(name, **arrays)]
+    broadcast(name, **arrays)
+    records = [narrowed(name, key, array, dtype)[..., np.newaxis] for key, array in arrays.items()]
     result = apply(str(dtype), name, records, parameter)[..., 0]
     if np.isnan(result).any():
         at = tuple(np.argwhere(np.isnan(result))[0])
@@ -109,7 +110,10 @@ def maximum(a: Any, b: Any) -> Any:
 
 
 def power(x: Any, n: int) -> Any:
-    """X to the power of an integer -2^20 <= n <= 2^20; x^0 is 1. Floats by repeated squaring: at most |n| roundings."""
+    """X to the power of an integer -2^20 <= n <= 2^20; x^0 is 1. Floats by repeated squaring: at most |n| roundings.
+
+    A negative power is the reciprocal of the positive one, and so 0 where that overflows.
+    """
     exponent = _validate.integer("power", "n", n, lowest=-(2**20), highest=2**20)
     return _evaluate("power", {"x": x}, exponent)
 
@@ -123,6 +127,6 @@ def ward_lobe(cosine: Any, sigma: float) -> Any:
     """Ward's lobe exp((1 - 1/cosine^2) / sigma^2) of the angle between normal and half vector (thesis 4.3.7).
 
     As one operator: nothing cancels where the lobe is bright, and its derivatives are bounded as a whole. An even
-    function of `cosine`, 0 at 0. `sigma`: the roughness, > 0.
+    function of `cosine`, 0 at 0. `sigma`: the roughness, > 0, rounded to float32 as that of a Material is.
     """
     return _evaluate("ward_lobe", {"cosine": cosine}, _validate.positive("ward_lobe", "sigma", sigma))

@@ -47,8 +47,9 @@ class Interval(Number):
         dtype = np.result_type(
             *[a.dtype for a, given in ((low, lo), (high, hi)) if not is_weak(given)] or [np.dtype(np.float64)]
         )
-        if dtype == np.float32 and any(not np.array_equal(a, a.astype(dtype)) for a in (low, high)):
-            dtype = np.dtype(np.float64)
+        with np.errstate(over="ignore", under="ignore"):
+            if dtype == np.float32 and any(not np.array_equal(a, a.astype(dtype)) for a in (low, high)):
+                dtype = np.dtype(np.float64)
         low, high = broadcast("Interval", lo=low, hi=high)
         good = (low <= high) & (low < np.inf) & (high > -np.inf)
         if not good.all():

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .. import _validate
+from .. import _core, _validate
 from .base import Number, apply, broadcast, is_weak, plain
 from .interval import KIND as INTERVAL
 from .interval import Interval
@@ -34,10 +34,10 @@ class RunningError(Number):
             raise ValueError(f"RunningError: error must be >= 0, got {_validate._culprit(errors, errors >= 0)}")
         dtype = np.dtype(np.float32) if values.dtype == np.float32 else np.dtype(np.float64)
         values, errors = broadcast("RunningError", value=values, error=errors)
-        bounds = errors.astype(dtype)
-        bounds = np.where(
-            bounds < errors, np.nextafter(bounds, dtype.type(np.inf)), bounds
-        )  # never below what was given
+        with np.errstate(over="ignore", under="ignore"):
+            bounds = errors.astype(dtype)
+            above = np.nextafter(bounds, dtype.type(np.inf))
+        bounds = np.where(bounds < errors, above, bounds)  # never below what was given
         given = np.stack([values.astype(dtype), bounds, np.zeros_like(bounds)], axis=-1)
         records = apply(KIND[dtype], "with_error", [given])
         records.flags.writeable = False
@@ -50,9 +50,11 @@ class RunningError(Number):
                 return value
             return RunningError._made(KIND[np.dtype(np.float64)], value._records.astype(np.float64))
         array = plain(who, name, value)
-        if self._records.dtype == np.float32 and is_weak(value):
-            rounded = np.float32(array)
-            return RunningError(rounded, np.abs(np.float64(rounded) - array))
+        if self._records.dtype == np.float32 and is_weak(value):  # rounded, between its neighbours
+            with np.errstate(over="ignore", under="ignore"):
+                rounded = array.astype(np.float32)
+            ends = _core.interval_points(np.ascontiguousarray(array, np.float64)).reshape(2)
+            return RunningError._made(self._kind, np.array([rounded, *ends], np.float32))
         return RunningError(array)
 
     @property
