@@ -27,8 +27,12 @@ struct Execution {
 };
 template <>
 struct Execution<Arithmetic::float32> {
-    static constexpr double unit_roundoff = 0x1p-24, underflow = 0x1p-150,
-                            largest = double(std::numeric_limits<float>::max());
+#ifdef RAYBOUND_SABOTAGE_ROUNDING
+    static constexpr double unit_roundoff = 0;  // the sabotage build: as if executions rounded nothing
+#else
+    static constexpr double unit_roundoff = 0x1p-24;
+#endif
+    static constexpr double underflow = 0x1p-150, largest = double(std::numeric_limits<float>::max());
 };
 template <>
 struct Execution<Arithmetic::float64> {
