@@ -70,8 +70,8 @@ inline TaylorModel<N, A> operator/(const TaylorModel<N, A>& a, const TaylorModel
     const double c = b.constant(), r = b.remainder();
     if (b.first_norm() + b.second_norm() == 0 && is_tame(c) && r <= 0.5 * std::abs(c)) {
         const double inverse = 1 / c, size = std::abs(inverse);
-        return a * TaylorModel<N, A>::certified(TaylorModel<N, A>(inverse).polynomial(),
-                                                (2 * r * size + 0x1p-52) * size);
+        return a *
+               TaylorModel<N, A>::certified(TaylorModel<N, A>(inverse).polynomial(), (2 * r * size + 0x1p-52) * size);
     }
     return a * reciprocal(b, 0);
 }
