@@ -98,7 +98,7 @@ def rounding_trials(operation: str, wide: bool, implementation: str, seed: int, 
 def interval_trials(operation: str, wide: bool, implementation: str, seed: int, count: int) -> dict[str, Any]: ...
 def time_multiply_add(kind: str, n: int, repeats: int) -> float: ...
 
-# Running errors as rows (value, lower, upper), linear intervals as rows (constant, slopes, range; inf and sup each)
+# Running errors as rows (value, lower, upper)
 
 def running_error_quadratic(
     coefficients: list[_Double], double: bool, shadow: bool

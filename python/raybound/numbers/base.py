@@ -138,13 +138,7 @@ class Number:
 
 
 def _restore(cls: type[Number], kind: str, records: npt.NDArray[Any], extra: Any) -> Number:
-    made = object.__new__(cls)
-    records = np.array(records)
-    records.flags.writeable = False
-    made._kind = kind
-    made._records = records
-    made._adopt(extra)
-    return made
+    return cls._made(kind, np.array(records), extra)
 
 
 def _operator(name: str, *operands: object) -> Any:

@@ -45,7 +45,7 @@ def rsqrt(x: Any) -> Any:
 
 
 def square(x: Any) -> Any:
-    """X * x, knowing that both are the same: the square of [-1, 1] is [0, 1]."""
+    """The square, x * x with both the same: that of [-1, 1] is [0, 1]."""
     return _evaluate("square", {"x": x})
 
 
@@ -55,7 +55,7 @@ def reciprocal(x: Any) -> Any:
 
 
 def exp(x: Any) -> Any:
-    """E to the power of x."""
+    """The exponential, e to the power of x."""
     return _evaluate("exp", {"x": x})
 
 
@@ -110,7 +110,7 @@ def maximum(a: Any, b: Any) -> Any:
 
 
 def power(x: Any, n: int) -> Any:
-    """X to the power of an integer -2^20 <= n <= 2^20; x^0 is 1. Floats by repeated squaring: at most |n| roundings.
+    """The power of x to an integer -2^20 <= n <= 2^20; x^0 is 1. Floats by repeated squaring: at most |n| roundings.
 
     A negative power is the reciprocal of the positive one, and so 0 where that overflows.
     """
@@ -119,7 +119,7 @@ def power(x: Any, n: int) -> Any:
 
 
 def fma(a: Any, b: Any, c: Any) -> Any:
-    """A * b + c; of floats and Intervals with one rounding."""
+    """The sum a * b + c; of floats and Intervals with one rounding."""
     return _evaluate("fma", {"a": a, "b": b, "c": c})
 
 
