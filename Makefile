@@ -29,7 +29,7 @@ export RAYBOUND_BENCH := $(abspath ../shared/bench)
 endif
 endif
 
-.PHONY: help build fmt lint test notebooks soak bench bench-embree bench-error bench-numbers demo wheel levels sanitize sabotage clean
+.PHONY: help build fmt lint test notebooks soak bench bench-exact bench-embree bench-error bench-numbers demo wheel levels sanitize sabotage clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -94,6 +94,9 @@ soak: $(VENV)/stamp-build $(VENV)/stamp-test ## Run the long searches for failur
 
 bench: $(VENV)/stamp-build $(VENV)/stamp-mesh ## Measure the base tracer's speed; ARGS=--readme renews the README's tables
 	$(PY) -m raybound bench base $(ARGS)
+
+bench-exact: $(VENV)/stamp-build $(VENV)/stamp-mesh $(VENV)/stamp-plot ## Measure frames from kept lists beside the base tracer's
+	$(PY) -m raybound bench exact $(ARGS)
 
 bench-embree: $(VENV)/stamp-build $(VENV)/stamp-mesh $(VENV)/stamp-bench ## Measure speed beside Embree's (needs libembree-dev)
 	$(PY) -m raybound bench embree $(ARGS)
@@ -166,7 +169,7 @@ sanitize: $(VENV)/stamp-tools $(VENV)/stamp-test ## Run the tests under the addr
 comma := ,
 
 # Red is wanted: pytest's exit code 1, "tests were run and some failed". A suite that is green, or cannot run, is an error.
-SABOTAGES ?= rounding predicate
+SABOTAGES ?= rounding predicate certificate invalidation
 
 sabotage: $(VENV)/stamp-tools $(VENV)/stamp-test $(SABOTAGES:%=sabotage-%) ## Break one thing at a time and expect the tests to fail
 

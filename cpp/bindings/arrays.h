@@ -109,6 +109,8 @@ void register_shapes(py::module_& m);
 void register_materials(py::module_& m);
 void register_scene(py::module_& m);
 void register_camera(py::module_& m);
+void register_surface_cells(py::module_& m);
 void register_render(py::module_& m);
+void register_packs(py::module_& m);
 
 }  // namespace raybound::python

@@ -29,7 +29,9 @@ PYBIND11_MODULE(RAYBOUND_MODULE, m) {
     register_materials(m);
     register_scene(m);
     register_camera(m);
+    register_surface_cells(m);
     register_render(m);
+    register_packs(m);
     m.def("build_info", &build_info, "How this module was built.");
 }
 

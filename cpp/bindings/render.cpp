@@ -21,6 +21,11 @@ py::dict ray_counts(const RayCounts& r) {
     return py::dict("eye"_a = r.eye, "shadow"_a = r.shadow, "reflected"_a = r.reflected, "refracted"_a = r.refracted);
 }
 
+py::dict cell_counts(const CellCounts& c) {
+    return py::dict("made"_a = c.made, "lit"_a = c.lit, "blocked"_a = c.blocked, "listed"_a = c.listed,
+                    "refused"_a = c.refused);
+}
+
 RenderSettings settings_of(int max_depth, int threads, int stride) {
     RenderSettings settings;
     if (max_depth < 1 || threads < 0 || stride < 1)
@@ -33,7 +38,7 @@ RenderSettings settings_of(int max_depth, int threads, int stride) {
 
 py::dict render_frame(const std::shared_ptr<Snapshot>& snapshot, const Camera& camera,
                       const std::shared_ptr<FrameBuffers>& buffers, int max_depth, int threads, int stride,
-                      const std::string& precision, bool brute_force, const py::object& progress) {
+                      const std::string& precision, bool brute_force, Cells* cells, const py::object& progress) {
     RenderSettings settings = settings_of(max_depth, threads, stride);
     if (buffers->width != camera.width() || buffers->height != camera.height())
         throw std::invalid_argument("render: buffers must have the camera's size");
@@ -44,11 +49,17 @@ py::dict render_frame(const std::shared_ptr<Snapshot>& snapshot, const Camera& c
     RenderStatistics statistics;
     {
         const py::gil_scoped_release released;
-        statistics = render(*snapshot, camera, *buffers, settings, watcher(progress));
+        if (cells && stride == 1) {
+            cells->begin_frame(*snapshot);
+            statistics = render_exactly(*snapshot, camera, *buffers, *cells, settings, watcher(progress));
+        } else {
+            statistics = render(*snapshot, camera, *buffers, settings, watcher(progress));
+        }
     }
     if (!progress.is_none()) progress(1.0);
     return py::dict("seconds"_a = statistics.seconds, "threads"_a = statistics.threads,
-                    "rays"_a = ray_counts(statistics.rays), "tests"_a = 0);
+                    "rays"_a = ray_counts(statistics.rays), "tests"_a = statistics.tests,
+                    "cells"_a = cell_counts(statistics.cells));
 }
 
 py::dict trace(const std::shared_ptr<Snapshot>& snapshot, const Floats& origins, const Floats& directions,
@@ -157,7 +168,7 @@ void register_render(py::module_& m) {
         .def_property_readonly("depth",
                                [](const Pointer& b) { return view<float>(b, b->depth, {b->height, b->width}); });
     m.def("render", &render_frame, "snapshot"_a, "camera"_a, "buffers"_a, py::kw_only(), "max_depth"_a, "threads"_a,
-          "stride"_a, "precision"_a, "brute_force"_a, "progress"_a);
+          "stride"_a, "precision"_a, "brute_force"_a, "cells"_a = py::none(), "progress"_a = py::none());
     m.def("trace", &trace, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "max_depth"_a, "threads"_a,
           "progress"_a);
     m.def("closest_hits", &closest_hits_dict, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "threads"_a);

@@ -19,11 +19,42 @@ class _Rays(TypedDict):
     reflected: int
     refracted: int
 
+class _CellCounts(TypedDict):
+    made: int
+    lit: int
+    blocked: int
+    listed: int
+    refused: int
+
+class _CellViews(TypedDict):
+    face: npt.NDArray[np.int32]
+    piece: npt.NDArray[np.int32]
+    depth: npt.NDArray[np.int32]
+    outward: npt.NDArray[np.uint8]
+    leaf: npt.NDArray[np.uint8]
+    rectangle: _Double
+    patch: _Double
+    candidates: npt.NDArray[np.int32]
+
+class _CellView(TypedDict):
+    face: int
+    piece: int
+    depth: int
+    outward: bool
+    lights: list[int]
+    candidates: list[int]
+
+class _BundleHits(TypedDict):
+    verdict: npt.NDArray[np.uint8]
+    nearest: _Double
+    farthest: _Double
+
 class _RenderCounts(TypedDict):
     seconds: float
     threads: int
     rays: _Rays
     tests: int
+    cells: _CellCounts
 
 class _Traced(TypedDict):
     radiance: _Float
@@ -215,6 +246,17 @@ class Snapshot:
     def intersect(self, origins: _Float, directions: _Float) -> npt.NDArray[np.void]: ...
     def occluded(self, origins: _Float, targets: _Float) -> npt.NDArray[np.bool_]: ...
 
+# Trials of rays side by side
+
+def pack_apply(name: str, x: npt.NDArray[Any], y: npt.NDArray[Any], packed: bool) -> npt.NDArray[Any]: ...
+def pack_hits(scene: Snapshot, origins: _Float, directions: _Float, packed: bool) -> npt.NDArray[np.void]: ...
+def pack_blocked(
+    scene: Snapshot, origins: _Float, ends: _Float, directions: bool, packed: bool
+) -> npt.NDArray[np.uint8]: ...
+def pack_light(
+    scene: Snapshot, object: int, points: _Float, normals: _Float, directions: _Float, packed: bool
+) -> tuple[npt.NDArray[np.void], npt.NDArray[np.void]]: ...
+
 # The camera
 
 @final
@@ -256,6 +298,19 @@ class FrameBuffers:
     @property
     def depth(self) -> _Float: ...
 
+@final
+class Cells:
+    def __init__(self, memory: int) -> None: ...
+    def clear(self) -> None: ...
+    @property
+    def bytes(self) -> int: ...
+    @property
+    def count(self) -> int: ...
+    def views(self, snapshot: Snapshot, object: int) -> _CellViews: ...
+    def view_at(
+        self, snapshot: Snapshot, object: int, face: int, point: tuple[float, float, float]
+    ) -> _CellView | None: ...
+
 def render(
     snapshot: Snapshot,
     camera: Camera,
@@ -266,7 +321,8 @@ def render(
     stride: int,
     precision: str,
     brute_force: bool,
-    progress: _Progress,
+    cells: Cells | None = ...,
+    progress: _Progress = ...,
 ) -> _RenderCounts: ...
 def trace(
     snapshot: Snapshot, origins: _Float, directions: _Float, *, max_depth: int, threads: int, progress: _Progress
@@ -276,5 +332,6 @@ def primary_hits(snapshot: Snapshot, camera: Camera, *, threads: int) -> tuple[i
 def trace_bounces(
     snapshot: Snapshot, origins: _Double, directions: _Double, *, precision: str, offsets: str, skips: bool
 ) -> _Bounces: ...
+def bundle_hits(snapshot: Snapshot, patch: _Double, target: _Float, *, directional: bool) -> _BundleHits: ...
 def explain(snapshot: Snapshot, camera: Camera, x: int, y: int, max_depth: int) -> dict[str, Any]: ...
 def build_info() -> _BuildInfo: ...

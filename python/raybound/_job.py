@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _core, statistics
 from ._records import Records
 from .camera import Camera
-from .frame import ARRAYS, Frame, Origin
+from .frame import ARRAYS, CellAt, Frame, Origin
 from .progress import ProgressCall
 from .scene import Scene
 from .tolerance import Tolerance
@@ -28,6 +28,7 @@ class Job:
     max_depth: int
     records: Records
     buffers: _core.FrameBuffers
+    cell_at: CellAt | None = None
     stats: dict[str, Any] = field(default_factory=statistics.zero)
 
     @classmethod
@@ -41,8 +42,14 @@ class Job:
         job._spend("snapshot", begin)
         return job
 
-    def trace(self, *, threads: int, stride: int, report: ProgressCall | None) -> None:
-        """Traces the pixels at multiples of `stride` that are not done yet."""
+    def begin_anew(self) -> None:
+        """Forgets the pixels that were traced; frames that show them keep their copies."""
+        self.buffers = _core.FrameBuffers(self.camera.width, self.camera.height)
+
+    def trace(
+        self, *, threads: int, stride: int, report: ProgressCall | None, cells: _core.Cells | None = None
+    ) -> None:
+        """Traces the pixels at multiples of `stride` that are not done yet, all of them with the help of `cells`."""
         begin = time.perf_counter()
         try:
             counts = _core.render(
@@ -54,12 +61,18 @@ class Job:
                 stride=stride,
                 precision="float32",
                 brute_force=False,
+                cells=cells,
                 progress=report,
             )
         finally:
             self._spend("trace", begin)
         self.stats["threads"] = counts["threads"]
         statistics.add(self.stats, {"rays": counts["rays"], "tests": counts["tests"]})
+        if cells is not None and stride == 1:
+            made = counts["cells"]
+            known = {"valid": made["lit"] + made["blocked"] + made["listed"], "invalid": {"memory": made["refused"]}}
+            statistics.add(self.stats, {"cells": {"made": made["made"], **known}})
+            self.stats["bytes"] = cells.bytes
 
     def _spend(self, phase: str, begin: float) -> None:
         seconds = time.perf_counter() - begin
@@ -78,5 +91,5 @@ class Job:
             tolerance=self.tolerance,
             revision=self.snapshot.revision,
             stats=stats,
-            origin=Origin(self.snapshot, self.max_depth, self.records),
+            origin=Origin(self.snapshot, self.max_depth, self.records, self.cell_at),
         )

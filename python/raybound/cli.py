@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import importlib.util
 import json
 import sys
@@ -19,11 +20,13 @@ from .scene_file import camera_from_dict, load_scene
 from .tolerance import Tolerance
 
 PLOTS = (".png", ".svg", ".pdf")
+PLOTTED = ("error", "exact")
 PICTURE = "1200 x 900 pixels, one thread"  # of bench embree
 SMALL = "small pictures of hard cases, one thread"
 FIXED: dict[str, dict[str, str]] = {  # by bench, what cannot be chosen, and what it is
     "base": {},
     "embree": dict.fromkeys(("width", "height", "threads"), PICTURE),
+    "exact": dict.fromkeys(("triangles", "rays"), "it draws scenes alone"),
     "error": {**dict.fromkeys(("width", "height", "threads"), SMALL), "triangles": "it has its own meshes"},
     "numbers": dict.fromkeys(("width", "height", "threads", "names", "triangles", "rays"), "it draws nothing"),
 }
@@ -73,17 +76,17 @@ def _add_render(render: argparse.ArgumentParser) -> None:
 
 def _add_bench(bench: argparse.ArgumentParser) -> None:
     what = (
-        "base: the base tracer (default); embree: beside Embree, one thread; error: speed against error on hard cases; "
-        "numbers: intervals and Taylor models beside double"
+        "base: the base tracer (default); exact: frames from kept lists beside it; embree: beside Embree, one "
+        "thread; error: speed against error on hard cases; numbers: intervals and Taylor models beside double"
     )
     bench.add_argument("what", nargs="?", choices=list(FIXED), default="base", help=what)
-    bench.add_argument("--width", type=int, help="of base, pixels (default 1200)")
-    bench.add_argument("--height", type=int, help="of base, pixels (default 900)")
-    bench.add_argument("--threads", help="of base, numbers of threads (default 1,2)")
+    bench.add_argument("--width", type=int, help="of base and exact, pixels (default 1200)")
+    bench.add_argument("--height", type=int, help="of base and exact, pixels (default 900)")
+    bench.add_argument("--threads", help="of base and exact, numbers of threads (default 1,2)")
     bench.add_argument(
         "--repeat",
         type=int,
-        help="runs to take the median of, or rounds to take the best of (default 5; error, numbers: 9)",
+        help="runs to take the median of, or rounds to take the best of (default 5; exact: 3; error, numbers: 9)",
     )
     bench.add_argument("--scenes", help="their names, with commas; of error, hard cases (default all)")
     bench.add_argument("--triangles", type=int, help="of the mesh (default 1000000)")
@@ -92,7 +95,7 @@ def _add_bench(bench: argparse.ArgumentParser) -> None:
     )
     bench.add_argument("--json", metavar="FILE", help="write the measurements to a file, too")
     bench.add_argument("--markdown", action="store_true", help="print the tables in Markdown")
-    bench.add_argument("--plot", metavar="FILE", help="of error, draw speed against error (.png, .svg, .pdf)")
+    bench.add_argument("--plot", metavar="FILE", help="of error and exact, draw the result (.png, .svg, .pdf)")
     readme = "put the tables into the block <!-- bench WHAT --> of a Markdown file (default README.md)"
     bench.add_argument("--readme", nargs="?", const="README.md", metavar="FILE", help=readme)
     bench.set_defaults(run=_bench)
@@ -164,9 +167,9 @@ def _demo(options: argparse.Namespace) -> None:
 
 
 def _bench(options: argparse.Namespace) -> None:
-    from .bench import base, embree, error, numbers, tables  # makes scenes
+    from .bench import base, embree, error, exact, numbers, tables  # makes scenes
 
-    bench = {"base": base, "embree": embree, "error": error, "numbers": numbers}[options.what]
+    bench = {"base": base, "exact": exact, "embree": embree, "error": error, "numbers": numbers}[options.what]
     arguments, block = _bench_arguments(options), f"bench {options.what}"
     _check_outputs(options)  # raises before time is spent
     if options.readme is not None:
@@ -183,12 +186,11 @@ def _bench(options: argparse.Namespace) -> None:
     if options.json is not None:
         Path(options.json).write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     if options.readme is not None:
-        short = list(error.readme_tables(result)) if bench is error else made
+        short = list(bench.readme_tables(result)) if hasattr(bench, "readme_tables") else made
         tables.rewrite_block(Path(options.readme), block, short)
     if options.plot is not None:
-        from .bench import error_plot
-
-        error_plot.figure(result).savefig(options.plot, dpi=150)
+        plot = importlib.import_module(f".bench.{options.what}_plot", __package__)
+        plot.figure(result).savefig(options.plot, dpi=150)
 
 
 def _check_outputs(options: argparse.Namespace) -> None:
@@ -199,8 +201,8 @@ def _check_outputs(options: argparse.Namespace) -> None:
             raise ValueError(f"--{name}: no such folder: {str(Path(path).parent)!r}")
     if options.plot is None:
         return
-    if options.what != "error":
-        raise ValueError(f"--plot is of bench error, got bench {options.what}")
+    if options.what not in PLOTTED:
+        raise ValueError(f"--plot is of bench {' and '.join(PLOTTED)}, got bench {options.what}")
     if Path(options.plot).suffix.lower() not in PLOTS:
         raise ValueError(f"--plot must end in one of {', '.join(PLOTS)}, got {options.plot!r}")
     if importlib.util.find_spec("matplotlib") is None:

@@ -29,7 +29,8 @@ class Explanation:
     error_bound : float
         Its certified bound.
     cell : dict or None
-        The cell that it was computed from, with its bound; None if it was traced.
+        The smallest surface cell around the point: its face, piece and depth in the quadtree, and what it knows of each
+        light, by id: "lit", "blocked", "n candidates" or "unknown". None if its renderer keeps none for this revision.
     tree : dict
         The ray tree: kind, origin, direction, hit, object_id, face_id, t, point, normal, radiance, lights,
         total_internal_reflection and children (more such trees).

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +20,8 @@ from .enums import Path, Reason
 from .explain import Explanation, ids
 from .tolerance import Tolerance
 
+# Asks the renderer for the cell around a point: snapshot, object, face, point.
+CellAt = Callable[[_core.Snapshot, int, int, tuple[float, float, float]], dict[str, Any] | None]
 ARRAYS = ("image", "error_bound", "path", "reason", "object_id", "depth")
 
 
@@ -30,6 +32,7 @@ class Origin:
     snapshot: _core.Snapshot
     max_depth: int
     records: Records
+    cell_at: CellAt | None = None
 
 
 class Frame:
@@ -132,7 +135,7 @@ class Frame:
     # Explanations
 
     def explain(self, x: int, y: int) -> Explanation:
-        """What happened at the pixel in column `x` and row `y`: object, path, reason, and the ray tree. Prints well.
+        """What happened at the pixel in column `x` and row `y`: object, path, reason, cell and ray tree. Prints well.
 
         ValueError if the pixel lies outside, or if the frame was unpickled: explaining traces the pixel again, in the
         scene that was rendered (later edits do not matter), and that is not pickled.
@@ -154,10 +157,16 @@ class Frame:
             path=Path(int(self.path[y, x])),
             reason=Reason(int(self.reason[y, x])),
             error_bound=float(self.error_bound[y, x]),
-            cell=None,
+            cell=self._cell(tree),
             tree=tree,
             labels=labels,
         )
+
+    def _cell(self, tree: Mapping[str, Any]) -> dict[str, Any] | None:
+        """The surface cell around the point that is seen, as long as its renderer keeps it."""
+        if self._origin is None or self._origin.cell_at is None or not tree["hit"]:
+            return None
+        return self._origin.cell_at(self._origin.snapshot, tree["object_id"], tree["face_id"], tree["point"])
 
     # Comparison, pickling, printing
 

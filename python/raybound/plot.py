@@ -5,13 +5,18 @@ The figures are not registered with pyplot: a notebook shows them once, and `fig
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
-from . import _validate
-from .enums import Path
+from . import _cell_plot, _validate
+from .camera import Camera
+from .enums import Path, Reason
 from .frame import Frame
+from .handles import LightHandle, Object
+from .renderer import Renderer
 from .testing import differences
 
 if TYPE_CHECKING:
@@ -28,11 +33,26 @@ PATH_COLOURS = {
 }
 
 
-def _figure(frame: Frame, columns: int = 1) -> Figure:
-    """An empty figure for so many pictures in the shape of the frame, side by side."""
+REASON_COLOURS = {
+    Reason.NONE: "#e9e9e9",
+    Reason.SILHOUETTE: "#1f4e9c",
+    Reason.OCCLUDER: "#5aa0dc",
+    Reason.SHADOW: "#3a3a3a",
+    Reason.SELF_SHADOW: "#8c8c8c",
+    Reason.REFLECTION: "#2c8c4a",
+    Reason.REFRACTION: "#8fce9b",
+    Reason.TIR: "#17becf",
+    Reason.ERROR_BOUND: "#9467bd",
+    Reason.COST: "#ff9f4a",
+    Reason.UNSUPPORTED: "#d62728",
+}
+
+
+def _figure(shape: tuple[int, ...], columns: int = 1) -> Figure:
+    """An empty figure for so many pictures of a shape (height, width), side by side."""
     from matplotlib import pyplot
 
-    height, width = frame.path.shape
+    height, width = shape
     side = 8 if columns == 1 else 5
     figure = pyplot.figure(figsize=(side * columns, min(max(side * height / width, 2), 12)), layout="constrained")
     pyplot.close(figure)
@@ -41,17 +61,28 @@ def _figure(frame: Frame, columns: int = 1) -> Figure:
 
 def path_map(frame: Frame) -> Figure:
     """How each pixel was made, one colour for each `Path`, with the share of pixels in the legend."""
+    _validate.instance("plot.path_map", "frame", frame, Frame)
+    return _code_map(frame.path, PATH_COLOURS)
+
+
+def reason_map(frame: Frame) -> Figure:
+    """Why pixels were traced, wholly or in part: one colour for each `Reason`, with its share in the legend."""
+    _validate.instance("plot.reason_map", "frame", frame, Frame)
+    return _code_map(frame.reason, REASON_COLOURS)
+
+
+def _code_map(codes: npt.NDArray[np.uint8], colours: Mapping[Any, str]) -> Figure:
+    """A picture of codes (h, w), each in its colour."""
     from matplotlib import colors, patches
 
-    _validate.instance("plot.path_map", "frame", frame, Frame)
-    figure = _figure(frame)
+    figure = _figure(codes.shape)
     axes = figure.subplots()
-    axes.imshow(frame.path, cmap=colors.ListedColormap(list(PATH_COLOURS.values())), vmin=-0.5, vmax=len(Path) - 0.5)
-    counts = np.bincount(frame.path.ravel(), minlength=len(Path))
+    axes.imshow(codes, cmap=colors.ListedColormap(list(colours.values())), vmin=-0.5, vmax=len(colours) - 0.5)
+    counts = np.bincount(codes.ravel(), minlength=len(colours))
     handles = [
-        patches.Patch(color=colour, label=f"{path.name.lower()} {counts[path] / frame.path.size:.1%}")
-        for path, colour in PATH_COLOURS.items()
-        if counts[path]
+        patches.Patch(color=colour, label=f"{code.name.lower().replace('_', ' ')} {counts[code] / codes.size:.1%}")
+        for code, colour in colours.items()
+        if counts[code]
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=4, frameon=False)
     axes.set_axis_off()
@@ -71,7 +102,7 @@ def error_map(frame: Frame, reference: Frame) -> Figure:
     positive = np.concatenate([values[(values > 0) & np.isfinite(values)] for values in (error, bound)])
     low, high = (positive.min(), positive.max()) if positive.size else (1e-6, 1.0)
     norm = colors.LogNorm(max(low, high * 1e-6), high if high > low else low * 10)
-    figure = _figure(frame, columns=2)
+    figure = _figure(frame.path.shape, columns=2)
     axes = figure.subplots(1, 2)
     for axis, values, title in zip(axes, (error, bound), ("|image - reference|", "certified bound"), strict=True):
         axis.imshow(np.where(np.isinf(values), 0.75, 1.0), cmap="gray", vmin=0, vmax=1)
@@ -82,3 +113,61 @@ def error_map(frame: Frame, reference: Frame) -> Figure:
     axes[0].imshow(np.ma.masked_where(~outside, outside), cmap=colors.ListedColormap(["#d62728"]))
     figure.colorbar(shown, ax=axes, label="radiance", shrink=0.8)
     return figure
+
+
+def cells(
+    renderer: Renderer,
+    object: Object,
+    *,
+    cam: Camera | None = None,
+    frame: Frame | None = None,
+    light: LightHandle | None = None,
+) -> Figure:
+    """The surface cells that a renderer keeps for an object, as a camera sees them, and what they know of the lights.
+
+    Parameters
+    ----------
+    renderer, object
+        See `Renderer.linetrees`. Only cells that are not divided further are drawn, of the outside if there are some.
+    cam : Camera
+        Default: that of `frame`, else the scene's.
+    frame : Frame
+        Lies over the cells, so that they show where the object is seen. Without it, nothing hides them but other cells.
+    light : LightHandle
+        The light that colours tell of; default: all. A cell is lit where nothing can be between it and the lights,
+        blocked where something certainly is, "lit or blocked" for some lights the one and for others the other; else
+        its colour is the length of its longest list of objects that may be in between.
+
+    Raises ValueError if no cells are kept for the object (or its scene has no such light), or if there is no camera.
+    """
+    who = "plot.cells"
+    _validate.instance(who, "renderer", renderer, Renderer)
+    kept = _cell_plot.leaves(renderer.linetrees(object))
+    if not len(kept):
+        raise ValueError(f"{who}: object must be one that the renderer keeps cells for, got {object!r}")
+    if frame is not None:
+        cam = _validate.instance(who, "frame", frame, Frame).camera if cam is None else cam
+    camera = renderer.scene.camera if cam is None else _validate.instance(who, "cam", cam, Camera)
+    if camera is None:
+        raise ValueError(f"{who}: cam must be given, as the scene has no camera")
+    if frame is not None and frame.camera != camera:
+        raise ValueError(f"{who}: frame must be one of the camera {camera!r}, got {frame.camera!r}")
+    figure = _figure((camera.height, camera.width))
+    _cell_plot.draw(figure, object, kept, _columns(renderer, light), camera, frame)
+    return figure
+
+
+def linetree(renderer: Renderer, object: Object, *, cam: Camera | None = None, frame: Frame | None = None) -> Figure:
+    """The data structure that a renderer keeps for an object; today always its surface cells, see `cells`."""
+    return cells(renderer, object, cam=cam, frame=frame)
+
+
+def _columns(renderer: Renderer, light: LightHandle | None) -> list[int]:
+    """Which lights of `Renderer.linetrees` are meant."""
+    lights = list(renderer.scene.lights)
+    if light is None:
+        return list(range(len(lights)))
+    handle = _validate.instance("plot.cells", "light", light, LightHandle, "a light of the scene")
+    if handle not in lights:
+        raise ValueError(f"plot.cells: light must be one of the renderer's scene, got {handle!r}")
+    return [lights.index(handle)]

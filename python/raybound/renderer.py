@@ -13,7 +13,7 @@ from typing import Any, NoReturn, Self
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _validate
+from . import _core, _validate, cells
 from . import progress as _progress
 from ._job import Job
 from ._validate import FloatArray
@@ -27,22 +27,10 @@ from .statistics import Totals
 from .tolerance import Tolerance, as_tolerance
 
 METHODS = ("auto", "base", "exact", "taylor", "quadrilinear")
-AVAILABLE = ("auto", "base")
+AVAILABLE = ("auto", "base", "exact")
 BOUNDS = ("constant", "hansen", "second-order", "taylor", "estimate")
 QUALITIES = ("bounded", "extrapolate-1", "extrapolate-2", "extrapolate-3", "extrapolate-4")
 STRIDES = (8, 4, 2, 1)  # of `refine`: every 8th pixel in x and y, then every 4th, ...
-CELL = np.dtype(
-    [
-        ("object_id", np.int32),
-        ("face_id", np.int32),
-        ("depth", np.int32),
-        ("lower", np.float32, (4,)),
-        ("upper", np.float32, (4,)),
-        ("valid", np.bool_),
-        ("bound", np.float32),
-    ]
-)
-
 logger = logging.getLogger("raybound")
 
 
@@ -77,13 +65,14 @@ class Renderer:
     scene : Scene
     tolerance : Tolerance or float
         How much a picture may differ from the base image; 0: not at all.
-    method : {"auto", "base"}
-        "base" traces everything; "auto" is the fastest that keeps the tolerance. ("exact", "taylor" and "quadrilinear"
-        are known, but not available in this version: ValueError.)
+    method : {"auto", "base", "exact"}
+        "base" traces everything; "exact" gives the same bytes from short lists that provably hold what rays can meet,
+        which it keeps for the next frames; "auto" is the fastest that keeps the tolerance, today "exact". ("taylor" and
+        "quadrilinear" are known, but not available in this version: ValueError.)
     bound : {"taylor", "constant", "hansen", "second-order", "estimate"}
         How "quadrilinear" bounds its error (thesis 4.3); no other method looks at it.
     memory : int
-        Bytes for interpolants and dependencies, a hard limit, > 0.
+        Bytes for what is kept for later frames, a hard limit, > 0. Too little of it is slower, never wrong.
     threads : int
         0 uses all cores. The picture's bytes do not depend on it.
     max_depth : int
@@ -112,12 +101,15 @@ class Renderer:
         self._tolerance = as_tolerance("Renderer", tolerance)
         self._method = _validate.choice("Renderer", "method", method, METHODS)
         if self._method not in AVAILABLE:
-            raise ValueError(f"Renderer: method {method!r} is not available in this version (use 'auto' or 'base')")
+            raise ValueError(
+                f"Renderer: method {method!r} is not available in this version (use 'auto', 'exact' or 'base')"
+            )
         self._bound = _validate.choice("Renderer", "bound", bound, BOUNDS)
         self._memory = _validate.integer("Renderer", "memory", memory, lowest=1, highest=2**62)
         self._threads = _validate.integer("Renderer", "threads", threads, lowest=0, highest=1024)
         self._max_depth = _validate.integer("Renderer", "max_depth", max_depth, lowest=1, highest=1000)
         self._editable = _validate.flag("Renderer", "editable", editable)
+        self._cells = None if self._method == "base" else _core.Cells(self._memory)
         self._lock = threading.Lock()
         self._closed = False
         self._totals = Totals()
@@ -181,6 +173,8 @@ class Renderer:
                 self._advance(job, stride, None)
             yield job.frame(final=False)
         with self._busy("refine"):
+            if self._cells is not None:
+                job.begin_anew()  # whole blocks of pixels, and their paths, as `render` gives them
             self._advance(job, STRIDES[-1], None)
             frame = self._finish(job)
         yield frame
@@ -216,12 +210,25 @@ class Renderer:
     def _start(self, camera: Camera) -> Job:
         """A frame to be: takes a snapshot of the scene."""
         self._partial = None
-        return Job.start(self._scene, camera, self._tolerance, self._max_depth, since=self._revision)
+        job = Job.start(self._scene, camera, self._tolerance, self._max_depth, since=self._revision)
+        job.cell_at = None if self._cells is None else self._cell_at
+        return job
+
+    def _cell_at(
+        self, snapshot: _core.Snapshot, object: int, face: int, point: tuple[float, float, float]
+    ) -> dict[str, Any] | None:
+        """What a frame's explanation tells of the cell around a point; None while the renderer is busy, or closed."""
+        if self._cells is None or not self._lock.acquire(blocking=False):
+            return None
+        try:
+            return cells.described(self._cells.view_at(snapshot, object, face, point))
+        finally:
+            self._lock.release()
 
     def _advance(self, job: Job, stride: int, report: ProgressCall | None) -> None:
         """Traces the pixels at multiples of `stride` that are not done yet."""
         try:
-            job.trace(threads=self._threads, stride=stride, report=report)
+            job.trace(threads=self._threads, stride=stride, report=report, cells=self._cells)
         except BaseException:
             self._partial = job.frame(final=True)
             raise
@@ -258,14 +265,20 @@ class Renderer:
     def linetrees(self, object: Object) -> npt.NDArray[np.void]:
         """The cells kept for an object, for pictures of the data structure: a structured array (n,).
 
-        Fields: object_id, face_id, depth (int32), lower, upper (4 float32), valid (bool), bound (float32). Empty for
-        methods that keep none.
+        Fields: object_id, face_id, depth (int32; 0 for a whole face), lower, upper (4 float32; the first two are
+        coordinates in the face's chart), valid (bool; what may block each light that was asked for is known), bound
+        (float32), and of surface cells also leaf (bool; not divided further), piece (int32; of the face, by the axis it
+        is seen along), outward (bool; rays leave to the outside), patch ((4, 3) float64: the middle of a parallelepiped
+        of space around that part of the face, and its three half axes) and candidates (int32, one for each light: the
+        number of objects that may block it, -1 where one certainly does, -2 where nothing is known). Empty for methods
+        that keep none, and before the first frame after an edit.
         """
         handle = _validate.instance("Renderer.linetrees", "object", object, Object, "an Object of the scene")
         if handle._scene is not self._scene:
             raise ValueError(f"Renderer.linetrees: object must be one of the renderer's scene, got {handle!r}")
         handle._record()
-        return np.empty(0, CELL)
+        with self._busy("linetrees"):
+            return cells.array(self._cells, self._scene._document.snapshot(), handle.id)
 
     # State
 
@@ -286,20 +299,25 @@ class Renderer:
 
     @property
     def memory_used(self) -> int:
-        """Bytes used for interpolants and dependencies now; at most `memory`."""
-        return 0
+        """Bytes used for what is kept for later frames; at most `memory`."""
+        return 0 if self._cells is None else self._cells.bytes
 
     def clear(self) -> None:
         """Forgets what was computed for earlier frames, and frees its memory. RuntimeError if busy or closed."""
         with self._busy("clear"):
-            self._partial = None
+            self._forget()
 
     def close(self) -> None:
         """Frees all memory; further calls raise RuntimeError. Closing twice is fine; RuntimeError if busy."""
         if not self._closed:
             with self._busy("close"):
-                self._partial = None
+                self._forget()
                 self._closed = True
+
+    def _forget(self) -> None:
+        self._partial = None
+        if self._cells is not None:
+            self._cells.clear()
 
     def __enter__(self) -> Self:
         with self._busy("with"):

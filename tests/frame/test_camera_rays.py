@@ -71,7 +71,7 @@ def test_tracing_the_rays_is_rendering_the_picture(seed: int) -> None:
     rng = np.random.default_rng([141, seed])
     cameras = [scene.camera, scene.camera.orbit(40, 10), random_camera(rng).replace(width=30, height=20)]
     seen = 0
-    with rb.Renderer(scene, max_depth=6) as renderer:
+    with rb.Renderer(scene, max_depth=6, method="base") as renderer:
         for cam in cameras:
             frame = renderer.render(cam)
             traced = renderer.trace(*(a.reshape(-1, 3) for a in cam.rays()))
@@ -88,7 +88,7 @@ def test_depth_is_the_distance_along_the_ray() -> None:
     scene = rb.Scene()
     scene.add(rb.Sphere((0, 0, 0), 1.0), emitter())
     cam = rb.Camera((0, -5, 0), (0, 0, 0), fov=30, width=64, height=48)
-    frame = rb.render(scene, cam)
+    frame = rb.render(scene, cam, method="base")
     d = exact_directions(cam)
     along = -(d @ f32(cam.eye))
     inside = along**2 - 24
@@ -104,7 +104,7 @@ def test_depth_is_the_distance_along_the_ray() -> None:
 @pytest.mark.parametrize("size", [(1, 1), (1, 65), (129, 1), (33, 31)])
 def test_every_pixel_of_odd_sizes_is_traced(size: tuple) -> None:
     scene = rb.Scene(background=(3, 2, 1))
-    frame = rb.render(scene, rb.Camera((0, 0, 0), (1, 0, 0), width=size[0], height=size[1]))
+    frame = rb.render(scene, rb.Camera((0, 0, 0), (1, 0, 0), width=size[0], height=size[1]), method="base")
     assert frame.image.shape == (size[1], size[0], 3)
     assert (frame.image == (3, 2, 1)).all()
     assert frame.stats["rays"]["eye"] == size[0] * size[1]

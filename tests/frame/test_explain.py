@@ -43,7 +43,7 @@ def test_the_radiance_of_the_tree_is_the_pixel(seed: int) -> None:
 def test_the_tree_counts_the_rays_of_the_frame() -> None:
     """Kinds over all pixels are the frame's counts; shadow rays of weight zero apart, since no material is black."""
     scene = random_scene(3, pixels=24)
-    frame = rb.render(scene, max_depth=5)
+    frame = rb.render(scene, max_depth=5, method="base")
     height, width = frame.path.shape
     count = dict.fromkeys(("eye", "reflected", "refracted", "shadow"), 0)
     for y in range(height):

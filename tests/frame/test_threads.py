@@ -51,9 +51,10 @@ def test_threads_for_pictures_smaller_than_a_tile() -> None:
     scene = rb.scenes.three_spheres()
     for width, height in ((1, 1), (1, 70), (33, 1), (32, 32), (31, 33)):
         cam = scene.camera.replace(width=width, height=height)
-        frames = [rb.render(scene, cam, threads=n) for n in THREADS]
-        for frame in frames[1:]:
-            assert_equal_frames(frames[0], frame, (width, height))
+        for method in ("exact", "base"):
+            frames = [rb.render(scene, cam, threads=n, method=method) for n in THREADS]
+            for frame in frames[1:]:
+                assert_equal_frames(frames[0], frame, (method, width, height))
         assert frames[0].stats["rays"]["eye"] == width * height
 
 

@@ -344,4 +344,4 @@ def test_bad_arguments(
 
 def test_other_benches_have_no_plot(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "base", "--plot=a.png"]) == 2
-    assert "--plot is of bench error, got bench base" in capsys.readouterr().err
+    assert "--plot is of bench error and exact, got bench base" in capsys.readouterr().err

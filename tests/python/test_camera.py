@@ -45,7 +45,7 @@ def test_pixel_0_0_is_top_left_and_x_grows_to_the_right() -> None:
 
 def test_rays_are_those_that_are_traced() -> None:
     scene = ball_scene(40, 30)
-    frame = rb.render(scene)
+    frame = rb.render(scene, method="base")
     origins, directions = frame.camera.rays()
     found = rb.Renderer(scene).trace(origins.reshape(-1, 3), directions.reshape(-1, 3))
     assert found.radiance.reshape(frame.image.shape).tobytes() == frame.image.tobytes()

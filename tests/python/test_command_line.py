@@ -88,7 +88,7 @@ BAD = [
     (["render", "ball.json", "-o", "a.png", "--max-depth=0"], "Renderer: max_depth must be"),
     (["render", "ball.json", "-o", "a.png", "--tolerance=x"], "--tolerance: must be a number >= 0 or none, got 'x'"),
     (["render", "ball.json", "-o", "a.png", "--tolerance=-1"], "--tolerance: must be a number >= 0 or none, got '-1'"),
-    (["render", "ball.json", "-o", "a.png", "--method=exact"], "method 'exact' is not available in this version"),
+    (["render", "ball.json", "-o", "a.png", "--method=taylor"], "method 'taylor' is not available in this version"),
     (["render", "ball.json", "-o", "a.png", "--method=best"], "invalid choice: 'best'"),
     (["render", "ball.json", "-o", "a.png", "--camera=1,2,3"], "--camera must be a JSON object or ex,ey,ez,tx,ty,tz"),
     (["render", "ball.json", "-o", "a.png", "--camera={"], "--camera is not JSON"),

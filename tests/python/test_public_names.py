@@ -24,7 +24,7 @@ def test_all_names_are_there() -> None:
     assert all(hasattr(rb, name) for name in NAMES)
     for owner, names in {
         rb.scenes: ["museum", "three_spheres", "sphereflake", "walkthrough", "hard_case"],
-        rb.plot: ["path_map", "error_map"],
+        rb.plot: ["path_map", "reason_map", "error_map", "cells", "linetree"],
         rb.testing: ["assert_within_bound"],
     }.items():
         assert all(callable(getattr(owner, name)) for name in names)

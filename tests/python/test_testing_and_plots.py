@@ -116,11 +116,14 @@ def test_the_report_is_complete_and_prints() -> None:
 
 
 def test_path_maps(tmp_path: Path) -> None:
-    figure = rb.plot.path_map(FRAME)
+    figure = rb.plot.path_map(rb.render(ball_scene(), method="base"))
     assert isinstance(figure, matplotlib.figure.Figure)
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     share = (FRAME.object_id == -1).mean()
     assert texts == [f"traced {1 - share:.1%}", f"background {share:.1%}"]
+    exact = rb.render(ball_scene(), method="exact")
+    texts = [text.get_text() for text in rb.plot.path_map(exact).legends[0].get_texts()]
+    assert texts == [f"{path.name.lower()} {(exact.path == path).mean():.1%}" for path in rb.Path if path in exact.path]
     figure.savefig(tmp_path / "map.png")
     assert (tmp_path / "map.png").stat().st_size > 1000
     first = next(iter(rb.Renderer(ball_scene()).refine()))

@@ -135,7 +135,8 @@ def test_great_depths_do_not_overflow_the_stack(depth: int) -> None:
     scene = rb.Scene(ambient=EMITTER_AMBIENT, background=0.5)
     scene.add(rb.Sphere((0, 0, 0), 1.0), rb.Material(2.0**-10, reflect=1.0))
     cam = rb.Camera((0, 0, 0.2), (1, 0.3, 0), width=8, height=8)
-    frame = rb.render(scene, cam, max_depth=depth)
+    frame = rb.render(scene, cam, max_depth=depth, method="base")
     assert frame.stats["rays"]["reflected"] == 64 * (depth - 1)
     assert (frame.image == depth * 2.0**-10).all()
+    assert (rb.render(scene, cam, max_depth=depth, method="exact").image == frame.image).all()
     assert len(chain_of(frame.explain(3, 3).tree)) == depth

@@ -11,7 +11,7 @@ DOWN = rb.Camera((0, 0, 2), (0, 0, 0), up=(0, 1, 0), fov=20, width=W, height=H)
 
 
 def counts(scene: rb.Scene, max_depth: int = 5, cam: rb.Camera = DOWN) -> dict[str, int]:
-    rays = rb.render(scene, cam, max_depth=max_depth).stats["rays"]
+    rays = rb.render(scene, cam, max_depth=max_depth, method="base").stats["rays"]
     assert rays == core_render(scene, cam, max_depth=max_depth).rays
     return {kind: count for kind, count in rays.items() if count}
 
@@ -126,7 +126,7 @@ def test_black_texels_take_no_shadow_rays() -> None:
 
 
 def test_trace_counts_no_pixels_but_frames_add_up() -> None:
-    with rb.Renderer(scene_with(emitter(), LAMP)) as renderer:
+    with rb.Renderer(scene_with(emitter(), LAMP), method="base") as renderer:
         renderer.render(DOWN)
         renderer.render(DOWN)
         assert renderer.stats["rays"] == {"eye": 2 * PIXELS, "shadow": 2 * PIXELS, "reflected": 0, "refracted": 0}

@@ -41,7 +41,7 @@ def corner_camera(camera: rb.Camera, size: int = 513) -> rb.Camera:
 def test_ray_counts(name: str) -> None:
     scene = rb.load_scene(data_file(name))
     assert scene.camera is not None
-    frame = rb.render(scene, corner_camera(scene.camera), max_depth=5)
+    frame = rb.render(scene, corner_camera(scene.camera), max_depth=5, method="base")
     rays = {**frame.stats["rays"], "eye hits": int((frame.object_id >= 0).sum())}
     assert rays.pop("eye") == 513 * 513
     assert rays == {kind: pytest.approx(count, rel=TOLERANCE, abs=0) for kind, count in COUNTED[name].items()}

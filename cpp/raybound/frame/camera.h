@@ -1,6 +1,8 @@
 // The pinhole camera: pixel (0,0) is top left, x grows to the right, rays pass through pixel centres.
 #pragma once
 
+#include <algorithm>
+
 #include "raybound/geometry/matrix.h"
 
 namespace raybound {
@@ -21,10 +23,18 @@ class Camera {
     // normalize((forward + right * sx) + upward * sy).
     template <class T>
     Vec3<T> direction(int x, int y) const {
-        const T sx = (T(x) + T(0.5)) * T(step_x_) - T(half_width_);
-        const T sy = T(half_height_) - (T(y) + T(0.5)) * T(step_y_);
+        return direction_through(T(x), T(y));
+    }
+    // The same for the numbers of pixels as T has them: for several side by side.
+    template <class T>
+    Vec3<T> direction_through(const T& x, const T& y) const {
+        const T sx = (x + T(0.5f)) * T(step_x_) - T(half_width_);
+        const T sy = T(half_height_) - (y + T(0.5f)) * T(step_y_);
         return normalize(Vec3<T>(forward_) + Vec3<T>(right_) * sx + Vec3<T>(upward_) * sy);
     }
+
+    // How fast the width of a pixel grows with the distance, at the middle of the picture.
+    double pixel_angle() const { return std::max(double(step_x_), double(step_y_)); }
 
     Camera orbit(double azimuth, double elevation) const;  // around the target; degrees
     Camera dolly(double distance) const;                   // toward the target; scene units

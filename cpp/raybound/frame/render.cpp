@@ -6,12 +6,11 @@
 #include <string>
 
 #include "raybound/frame/stopwatch.h"
+#include "raybound/frame/tiling.h"
 
 namespace raybound {
 
 namespace {
-
-constexpr int tile_size = 32;  // TUNED: 16 to 64 measure alike on two cores
 
 // A pixel whose trace was cut short by a cancellation is not stored.
 template <class T>
@@ -35,29 +34,6 @@ void copy_pixel(FrameBuffers& buffers, std::size_t from, std::size_t to) {
     buffers.object_id[to] = buffers.object_id[from];
     buffers.depth[to] = buffers.depth[from];
 }
-
-struct Tile {
-    int x0, y0, x1, y1;
-};
-
-// Sets of tiles over the picture; their sides are multiples of the stride, so that blocks do not straddle tiles.
-class Tiling {
-  public:
-    Tiling(const FrameBuffers& buffers, int stride)
-        : side_((tile_size + stride - 1) / stride * stride),
-          width_(buffers.width),
-          height_(buffers.height),
-          columns_((width_ + side_ - 1) / side_) {}
-
-    int count() const { return columns_ * ((height_ + side_ - 1) / side_); }
-    Tile tile(int item) const {
-        const int x = item % columns_ * side_, y = item / columns_ * side_;
-        return {x, y, std::min(x + side_, width_), std::min(y + side_, height_)};
-    }
-
-  private:
-    int side_, width_, height_, columns_;
-};
 
 // The rays of a few pixels side by side, whose searches begin where the tree parts for them.
 constexpr int block_size = 8;  // TUNED: 4 to 16 measure alike

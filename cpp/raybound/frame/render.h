@@ -1,6 +1,7 @@
 // Rendering with the base tracer, by tiles, on several threads.
 #pragma once
 
+#include "raybound/certify/exact_tracer.h"
 #include "raybound/frame/buffers.h"
 #include "raybound/frame/camera.h"
 #include "raybound/frame/work_queue.h"
@@ -20,6 +21,8 @@ struct RenderSettings {
 
 struct RenderStatistics {
     RayCounts rays;
+    std::uint64_t tests = 0;  // of candidates, instead of searches
+    CellCounts cells;
     double seconds = 0;
     int threads = 0;
 };
@@ -29,6 +32,11 @@ struct RenderStatistics {
 // are traced by the double kernels, for comparison.
 RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers,
                         const RenderSettings& settings, const Watch& watch);
+
+// The same bytes from certified lists (certify/exact_tracer.h), which `cells` keeps for other frames of the scene: it
+// must have begun this frame. No stride, and float32.
+RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, Cells& cells,
+                                const RenderSettings& settings, const Watch& watch);
 
 // Any rays, by the same tracer. Directions are made unit vectors in float first (throws std::invalid_argument for
 // zero).

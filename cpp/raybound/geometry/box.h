@@ -116,16 +116,36 @@ struct BoxInterval {
     V near, far;
 };
 
+template <class V>
+inline void clip_to_slab(BoxInterval<V>& inside, const V& near_distance, const V& far_distance, const V& reciprocal) {
+    inside.near = maximum(inside.near, near_distance * reciprocal);
+    inside.far = minimum(inside.far, far_distance * reciprocal);
+}
+
 // plane(i): the planes of number i, as above.
 template <class V, class T, class Planes>
 inline BoxInterval<V> slab_interval(const SlabRay<T>& ray, T t_max, const Planes& plane) {
-    V near(T(0)), far(infinity<T>);
-    for (int axis = 0; axis < 3; ++axis) {
-        const V r(ray.reciprocal[axis]);
-        near = maximum(near, (plane(ray.near_plane[axis]) - V(ray.near_origin[axis])) * r);
-        far = minimum(far, (plane(ray.far_plane[axis]) - V(ray.far_origin[axis])) * r);
-    }
-    return {near, minimum(V(t_max), far * V(ray.widening))};
+    BoxInterval<V> inside{V(T(0)), V(infinity<T>)};
+    for (int axis = 0; axis < 3; ++axis)
+        clip_to_slab(inside, plane(ray.near_plane[axis]) - V(ray.near_origin[axis]),
+                     plane(ray.far_plane[axis]) - V(ray.far_origin[axis]), V(ray.reciprocal[axis]));
+    return {inside.near, minimum(V(t_max), inside.far * V(ray.widening))};
+}
+
+// The same for several rays at one box: each lane has near and far planes of its own.
+template <class T>
+inline BoxInterval<Pack<T>> slab_interval(const Box& box, const Ray<Pack<T>>& rays, const Pack<T>& t_max) {
+    using P = Pack<T>;
+    BoxInterval<P> inside{P(T(0)), P(infinity<T>)};
+    const auto clip = [&](float lower, float upper, const P& origin, const P& direction) {
+        const P r = P(T(1)) / direction, to_lower = P(T(lower)) - origin, to_upper = P(T(upper)) - origin;
+        const Mask<P> falling = r < P(T(0));
+        clip_to_slab(inside, select(falling, to_upper, to_lower), select(falling, to_lower, to_upper), r);
+    };
+    clip(box.lower.x, box.upper.x, rays.origin.x, rays.direction.x);
+    clip(box.lower.y, box.upper.y, rays.origin.y, rays.direction.y);
+    clip(box.lower.z, box.upper.z, rays.origin.z, rays.direction.z);
+    return {inside.near, minimum(t_max, inside.far * P(slab_widening<T>))};
 }
 
 // The same for a bundle: from the first entry to the last exit.

@@ -62,6 +62,12 @@ class Bvh {
     template <class T, class Visit>
     bool any(const SlabRay<T>& ray, T t_max, const Visit& visit) const;
 
+    // Calls visit(leaf, near) for each leaf whose box a bundle may meet, nearer children first: test(planes, near)
+    // returns the children of a node that it may meet, and where at the earliest; `until` is asked before each node,
+    // and nothing that begins beyond it is visited.
+    template <class Test, class Until, class Visit>
+    void visit(const Test& test, const Until& until, const Visit& visit_leaf) const;
+
   private:
     LargeArray<BvhNode> nodes_;
 };
@@ -173,6 +179,32 @@ bool Bvh::any(const SlabRay<T>& ray, T t_max, const Visit& visit) const {
         }
         if (size == 0) return false;
         current = stack[--size];
+    }
+}
+
+template <class Test, class Until, class Visit>
+void Bvh::visit(const Test& test, const Until& until, const Visit& visit_leaf) const {
+    if (nodes_.empty()) return;
+    bvh::Entry<float> stack[bvh::stack_size];
+    int size = 0;
+    bvh::Entry<float> top{0, 0};
+    for (;;) {
+        if (top.child & leaf_bit) {
+            visit_leaf(top.child & ~leaf_bit, top.near);
+        } else {
+            const BvhNode& node = nodes_[top.child];
+            const auto plane = [&node](std::uint32_t i) { return Pack<float>::load(node.plane[i]); };
+            Pack<float> near;
+            const int begin = size;
+            for (std::uint32_t met = test(plane, near); met != 0;) {
+                const int k = bvh::take_lowest(met);
+                bvh::push_sorted(stack, begin, size, {near[k], node.child[k]});
+            }
+        }
+        do {
+            if (size == 0) return;
+            top = stack[--size];
+        } while (top.near > until());
     }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "raybound/geometry/vector.h"
-#include "raybound/numbers/float_bits.h"
+#include "raybound/numbers/pack_functions.h"
 
 namespace raybound {
 
@@ -89,18 +89,21 @@ inline Ray<Wide<T>> widen(const Ray<T>& ray) {
 }
 
 // One coordinate moved by `offset` and rounded away from where it was, by at least one number.
-template <std::floating_point T>
+template <class T>
 inline T step_away(T p, T offset, T direction) {
     const T moved = p + offset;
-    if (direction > 0) return next_float_up(moved);
-    if (direction < 0) return next_float_down(moved);
-    return moved;
+    if constexpr (std::is_same_v<Mask<T>, bool>) {  // branches are cheaper than choices for one number
+        if (direction > T(0)) return next_float_up(moved);
+        return direction < T(0) ? next_float_down(moved) : moved;
+    } else {
+        return select(direction > T(0), next_float_up(moved), select(direction < T(0), next_float_down(moved), moved));
+    }
 }
 
 // The origin of a ray that leaves p on the side to which `side` points (a unit normal or its opposite): outside the
 // box p +- p_error, by the least move along the normal (seeds/000, 3.9.5). Unlike there a coordinate is also stepped
 // when the bound is zero, so that an origin on an exact plane leaves it.
-template <std::floating_point T>
+template <class T>
 inline Vec3<T> offset_origin(const Vec3<T>& p, const Vec3<T>& p_error, const Vec3<T>& side) {
     const T d = dot(absolute(side), p_error) * (T(1) + gamma<T>(4));
     return {step_away(p.x, d * side.x, side.x), step_away(p.y, d * side.y, side.y), step_away(p.z, d * side.z, side.z)};

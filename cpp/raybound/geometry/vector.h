@@ -104,9 +104,13 @@ template <class T>
 inline Vec3<T> maximum(const Vec3<T>& a, const Vec3<T>& b) {
     return {maximum(a.x, b.x), maximum(a.y, b.y), maximum(a.z, b.z)};
 }
-template <class T>
+template <std::floating_point T>
 inline bool is_finite(const Vec3<T>& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+template <class T>
+inline Mask<T> is_finite(const Vec3<T>& a) {
+    return Mask<T>(abs(a.x) < infinity<T>) & (abs(a.y) < infinity<T>)&(abs(a.z) < infinity<T>);
 }
 
 // Two unit vectors that complete the unit vector w to a right-handed basis (Duff et al. 2017): for w = z they are x

@@ -17,75 +17,93 @@ namespace elementary {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-// e^x for |x| < 745, relative error below 2^-36: x = k ln 2 + r with |r| <= ln 2 / 2, a Taylor polynomial of degree 9
-// in r (its remainder r^10/10! is below 2^-37), times 2^k in two exact factors so that subnormal results pass too.
-inline double exp_kernel(double x) {
+// 2^k for the integer k that stands in the low bits of `shifted`.
+inline double power_of_two(double shifted) {
+    return std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1023) << 52);
+}
+
+// e^x for |x| < 700, relative error below 2^-36: x = k ln 2 + r with |r| <= ln 2 / 2, a Taylor polynomial of degree 9
+// in r (its remainder r^10/10! is below 2^-37), times 2^k. D is double, or doubles side by side.
+template <class D>
+inline D exp_kernel(const D& x) {
     constexpr double shifter = 0x1.8p52;  // adding it rounds to an integer in the low bits
     constexpr double log2_e = 1.4426950408889634074, ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
-    const double shifted = x * log2_e + shifter;
-    const double k = shifted - shifter;
-    const double r = (x - k * ln2_high) - k * ln2_low;
-    double p = 1.0 / 362880;
-    p = p * r + 1.0 / 40320;
-    p = p * r + 1.0 / 5040;
-    p = p * r + 1.0 / 720;
-    p = p * r + 1.0 / 120;
-    p = p * r + 1.0 / 24;
-    p = p * r + 1.0 / 6;
-    p = p * r + 0.5;
-    p = p * r + 1.0;
-    p = p * r + 1.0;
-    const auto exponent = static_cast<std::int64_t>(k);
-    return p * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+    const D shifted = x * D(log2_e) + D(shifter);
+    const D k = shifted - D(shifter);
+    const D r = (x - k * D(ln2_high)) - k * D(ln2_low);
+    D p(1.0 / 362880);
+    p = p * r + D(1.0 / 40320);
+    p = p * r + D(1.0 / 5040);
+    p = p * r + D(1.0 / 720);
+    p = p * r + D(1.0 / 120);
+    p = p * r + D(1.0 / 24);
+    p = p * r + D(1.0 / 6);
+    p = p * r + D(0.5);
+    p = p * r + D(1.0);
+    p = p * r + D(1.0);
+    return p * power_of_two(shifted);
 }
 
 // atan(z) for 0 <= z <= 1, absolute error below 2^-37: one reduction by tan(pi/8), then the odd series to z^23
 // (|z| <= 0.4143: the remainder is below 0.4143^25/25).
-inline double atan_kernel(double z) {
+template <class D>
+inline D atan_kernel(const D& z) {
     constexpr double tan_pi_8 = 0.41421356237309504880;
-    const bool high = z > tan_pi_8;
-    const double w = high ? (z - 1) / (z + 1) : z;
-    const double w2 = w * w;
-    double p = -1.0 / 23;
-    p = p * w2 + 1.0 / 21;
-    p = p * w2 - 1.0 / 19;
-    p = p * w2 + 1.0 / 17;
-    p = p * w2 - 1.0 / 15;
-    p = p * w2 + 1.0 / 13;
-    p = p * w2 - 1.0 / 11;
-    p = p * w2 + 1.0 / 9;
-    p = p * w2 - 1.0 / 7;
-    p = p * w2 + 1.0 / 5;
-    p = p * w2 - 1.0 / 3;
+    const auto high = z > D(tan_pi_8);
+    const D w = select(high, (z - D(1.0)) / (z + D(1.0)), z);
+    const D w2 = w * w;
+    D p(-1.0 / 23);
+    p = p * w2 + D(1.0 / 21);
+    p = p * w2 - D(1.0 / 19);
+    p = p * w2 + D(1.0 / 17);
+    p = p * w2 - D(1.0 / 15);
+    p = p * w2 + D(1.0 / 13);
+    p = p * w2 - D(1.0 / 11);
+    p = p * w2 + D(1.0 / 9);
+    p = p * w2 - D(1.0 / 7);
+    p = p * w2 + D(1.0 / 5);
+    p = p * w2 - D(1.0 / 3);
     p = p * w2 * w + w;
-    return high ? p + pi / 4 : p;
+    return select(high, p + D(pi / 4), p);
 }
 
 // The angle of (x, y) in [-pi, pi]; the sign of a zero y is kept, atan2(+-0, +0) is +-0 as in C.
-inline double atan2_kernel(double y, double x) {
-    const double ax = std::abs(x), ay = std::abs(y);
-    const double big = maximum(ax, ay), small = minimum(ax, ay);
-    double angle = big > 0 ? atan_kernel(small / big) : 0.0;
-    angle = ay > ax ? pi / 2 - angle : angle;
-    angle = std::signbit(x) ? pi - angle : angle;
-    return std::copysign(angle, y);
+template <class D>
+inline D atan2_kernel(const D& y, const D& x) {
+    const D ax = abs(x), ay = abs(y);
+    const D big = maximum(ax, ay), small = minimum(ax, ay);
+    D angle = select(big > D(0.0), atan_kernel(D(small / big)), D(0.0));
+    angle = select(ay > ax, D(pi / 2) - angle, angle);
+    angle = select(copysign(D(1.0), x) < D(0.0), D(pi) - angle, angle);
+    return copysign(angle, y);
+}
+
+// The functions of F = float, or of floats side by side.
+template <class F>
+inline F rounded_exp(const F& x) {
+    using D = Wide<F>;
+    const D clamped = minimum(maximum(D(-150.0), D(x)), D(150.0));  // NaN goes to -150 here, and is put back
+    return select(x == x, F(exp_kernel(clamped)), x);
+}
+template <class F>
+inline F rounded_atan2(const F& y, const F& x) {
+    return F(atan2_kernel(Wide<F>(y), Wide<F>(x)));
+}
+// acos(x) = atan2(sqrt((1 - x)(1 + x)), x) for |x| <= 1, which does not cancel near 1; NaN outside.
+template <class F>
+inline F rounded_acos(const F& x) {
+    using D = Wide<F>;
+    const D s = (D(1.0) - D(x)) * (D(1.0) + D(x));
+    return select(Mask<F>(s >= D(0.0)), F(atan2_kernel(D(sqrt(s)), D(x))),
+                  F(std::numeric_limits<Scalar<F>>::quiet_NaN()));
 }
 
 }  // namespace elementary
 
 // e^x. Above 88.73 it is +infinity, below -104 it is 0; NaN stays NaN.
-inline float exp(float x) {
-    const double clamped = minimum(maximum(-150.0, double(x)), 150.0);  // NaN goes to -150 here, and is put back below
-    return x == x ? static_cast<float>(elementary::exp_kernel(clamped)) : x;
-}
-inline float atan2(float y, float x) { return static_cast<float>(elementary::atan2_kernel(y, x)); }
-
-// acos(x) = atan2(sqrt((1 - x)(1 + x)), x) for |x| <= 1, which does not cancel near 1; NaN outside.
-inline float acos(float x) {
-    const double s = (1.0 - double(x)) * (1.0 + double(x));
-    return s >= 0 ? static_cast<float>(elementary::atan2_kernel(std::sqrt(s), x))
-                  : std::numeric_limits<float>::quiet_NaN();
-}
+inline float exp(float x) { return elementary::rounded_exp(x); }
+inline float atan2(float y, float x) { return elementary::rounded_atan2(y, x); }
+inline float acos(float x) { return elementary::rounded_acos(x); }
 
 // Ward's lobe exp(-tan^2(alpha) / sigma^2) from the cosine of alpha (thesis 4.3.7, its sign of tan^2 corrected): the
 // exponent in double, so that nothing cancels where the lobe is bright, and one rounding. Even in the cosine, 0 at 0.

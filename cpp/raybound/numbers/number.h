@@ -44,6 +44,14 @@ struct ScalarOf {
 template <class T>
 using Scalar = typename ScalarOf<T>::type;
 
+// A small integer for each value of T: one, or one for each lane.
+template <class T>
+struct IndexOf {
+    using type = int;
+};
+template <class T>
+using Index = typename IndexOf<T>::type;
+
 inline bool none(bool mask) { return !mask; }
 
 template <std::floating_point T>

@@ -53,6 +53,10 @@ class Accelerator {
     template <class T, class Visit>
     bool any(const Geometry& geometry, const Ray<T>& ray, T t_max, const Visit& visit) const;
 
+    // Calls visit(primitive) for each primitive of a leaf of the BVH.
+    template <class Visit>
+    void visit_primitives(std::uint32_t leaf, const Visit& visit) const;
+
   private:
     enum class Kind : std::uint8_t { single, spheres, triangles };
     static constexpr std::uint32_t kind_shift = 29, index_mask = (1u << kind_shift) - 1;
@@ -79,6 +83,22 @@ class Accelerator {
     std::vector<Place> places_;
     float built_cost_ = 0;
 };
+
+template <class Visit>
+void Accelerator::visit_primitives(std::uint32_t leaf, const Visit& visit) const {
+    const std::uint32_t index = leaf & index_mask;
+    const auto lanes = [&visit](const auto& pack) {
+        for (std::uint32_t rest = pack.lanes; rest != 0;) visit(pack.id[bvh::take_lowest(rest)]);
+    };
+    switch (Kind(leaf >> kind_shift)) {
+        case Kind::single:
+            return visit(index);
+        case Kind::spheres:
+            return lanes(spheres_[index]);
+        case Kind::triangles:
+            return lanes(triangles_[index]);
+    }
+}
 
 template <class T, class Visit>
 bool Accelerator::visit_leaf(const Geometry& geometry, std::uint32_t leaf, T near, SearchRay<T>& ray, const T& t_max,

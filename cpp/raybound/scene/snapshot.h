@@ -45,6 +45,7 @@ class Snapshot {
     const std::vector<LightRecord>& lights() const { return content_->lights; }
     const Vec3f& ambient() const { return content_->ambient; }
     const Vec3f& background() const { return content_->background; }
+    const ContentPointer& content() const { return content_; }
     std::int64_t revision() const { return revision_; }
     std::size_t bytes() const;  // of all this, the shared data of meshes counted once; not of shapes and textures
 

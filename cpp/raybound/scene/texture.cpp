@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "raybound/geometry/lanes.h"
 #include "raybound/shapes/shape.h"
 
 namespace raybound {
@@ -11,15 +12,16 @@ namespace {
 // The coordinate brought into [0, 1] before it is turned into texels, so that no integer can overflow.
 template <class T>
 T wrapped(T x, Wrap wrap) {
-    if (!(abs(x) < T(0x1p40))) return T(0);
+    using std::floor;
+    const T safe = select(abs(x) < T(0x1p40), x, T(0));
     switch (wrap) {
         case Wrap::repeat:
-            return x - std::floor(x);
+            return safe - floor(safe);
         case Wrap::clamp:
-            return minimum(maximum(x, T(0)), T(1));
+            return minimum(maximum(safe, T(0)), T(1));
         default: {
-            const T half = x * T(0.5), phase = (half - std::floor(half)) * T(2);
-            return phase > T(1) ? T(2) - phase : phase;
+            const T half = safe * T(0.5), phase = (half - floor(half)) * T(2);
+            return select(phase > T(1), T(2) - phase, phase);
         }
     }
 }
@@ -27,18 +29,20 @@ T wrapped(T x, Wrap wrap) {
 // The two texels around a coordinate and the weight of the second.
 template <class T>
 struct Tap {
-    int first, second;
+    Index<T> first, second;
     T weight;
 };
 
 template <class T>
 Tap<T> tap(T x, int size, Wrap wrap) {
     const T position = wrapped(x, wrap) * T(size) - T(0.5);
-    const T base = std::floor(position);
-    const int i = static_cast<int>(base);
-    const auto inside = [&](int k) {
-        if (wrap == Wrap::repeat) return k < 0 ? k + size : k >= size ? k - size : k;
-        return k < 0 ? 0 : k >= size ? size - 1 : k;
+    using std::floor;
+    const T base = floor(position);
+    using I = Index<T>;
+    const I i(base), end(size);
+    const auto inside = [&](const I& k) {
+        if (wrap == Wrap::repeat) return select(k < I(0), I(k + end), select(k >= end, I(k - end), k));
+        return select(k < I(0), I(0), select(k >= end, I(end - 1), k));
     };
     return {inside(i), inside(i + 1), position - base};
 }
@@ -64,15 +68,25 @@ Texture::Texture(std::span<const Vec3f> texels, int width, int height, float sca
 }
 
 template <class T>
+Vec3<T> Texture::texels(const Index<T>& x, const Index<T>& y) const {
+    if constexpr (std::is_same_v<T, Scalar<T>>) {
+        return Vec3<T>(texel(x, y));
+    } else {
+        return side_by_side<Scalar<T>>([&](int lane) { return texel(x[lane], y[lane]); });
+    }
+}
+
+template <class T>
 Vec3<T> Texture::lookup(const UV<T>& uv) const {
     const Tap<T> u = tap(uv.u * T(scale_u_), width_, wrap_), v = tap(uv.v * T(scale_v_), height_, wrap_);
     const T u1 = u.weight, u0 = T(1) - u1, v1 = v.weight, v0 = T(1) - v1;
-    const Vec3<T> below = Vec3<T>(texel(u.first, v.first)) * u0 + Vec3<T>(texel(u.second, v.first)) * u1;
-    const Vec3<T> above = Vec3<T>(texel(u.first, v.second)) * u0 + Vec3<T>(texel(u.second, v.second)) * u1;
+    const Vec3<T> below = texels<T>(u.first, v.first) * u0 + texels<T>(u.second, v.first) * u1;
+    const Vec3<T> above = texels<T>(u.first, v.second) * u0 + texels<T>(u.second, v.second) * u1;
     return below * v0 + above * v1;
 }
 
 template Vec3<float> Texture::lookup(const UV<float>&) const;
 template Vec3<double> Texture::lookup(const UV<double>&) const;
+template Vec3<Pack<float>> Texture::lookup(const UV<Pack<float>>&) const;
 
 }  // namespace raybound

@@ -28,6 +28,8 @@ class Texture {
 
   private:
     const Vec3f& texel(int x, int y) const { return texels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
+    template <class T>
+    Vec3<T> texels(const Index<T>& x, const Index<T>& y) const;
 
     LargeArray<Vec3f> texels_;
     int width_, height_;

@@ -19,12 +19,13 @@ inline T root_error(T residual, T slope, T curvature) {
 // that point. (How far the leaf is off the user's surface, surface_error, is not in it: surface_point adds that.)
 template <class T>
 inline T boundary_error(const Geometry& geometry, const Leaf& leaf, int face, T t, const Ray<T>& ray) {
-    if (!(abs(t) < infinity<T>)) return T(0);
+    const Mask<T> finite = abs(t) < infinity<T>;
+    if (none(finite)) return T(0);
     const Vec3<T> way = ray.direction * t, p = ray.origin + way;
     const Surface<T> surface = leaf_surface(geometry, leaf, face, p, ray.direction);
     const T rounding = gamma<T>(3) * dot(absolute(surface.gradient), absolute(ray.origin) + absolute(way));
     const T residual = abs(surface.form.value) + surface.form.band + rounding;
-    return root_error(residual, dot(surface.gradient, ray.direction), surface.curvature);
+    return select(finite, root_error(residual, dot(surface.gradient, ray.direction), surface.curvature), T(0));
 }
 
 }  // namespace raybound

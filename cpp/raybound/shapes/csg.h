@@ -25,15 +25,57 @@ struct Interval {
     Boundary<T> in, out;
 };
 
-// The intervals of an expression along a ray, in order of t.
+// What a line has inside of each leaf of an expression, with the errors of its ends: found when it is asked for.
 template <class T>
+class LeafSpans {
+  public:
+    LeafSpans(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), ray_(ray) {}
+
+    // Calls visit(span, error of t_in, error of t_out) for each part.
+    template <class Visit>
+    void visit(const CsgNode& node, const Visit& visit) const {
+        const Leaf& leaf = geometry_.leaves[node.first];
+        if (leaf.kind == LeafKind::quadric) {
+            const Spans<T> spans = quadric_leaf_spans(geometry_, leaf, ray_);
+            for (int i = 0; i < spans.count; ++i) visit_one(leaf, spans.part[i], visit);
+        } else if (const Span<T> span = leaf_span(geometry_, leaf, ray_); span.hit) {
+            visit_one(leaf, span, visit);
+        }
+    }
+
+  private:
+    template <class Visit>
+    void visit_one(const Leaf& leaf, const Span<T>& span, const Visit& visit) const {
+        visit(span, boundary_error(geometry_, leaf, span.face_in, span.t_in, ray_),
+              boundary_error(geometry_, leaf, span.face_out, span.t_out, ray_));
+    }
+
+    const Geometry& geometry_;
+    const Ray<T>& ray_;
+};
+
+// The intervals of an expression along a ray, in order of t.
+template <class T, class Spans = LeafSpans<T>>
 class CsgEvaluation {
   public:
-    CsgEvaluation(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), ray_(ray) { stack_.reserve(32); }
+    CsgEvaluation(const Geometry& geometry, const Spans& spans) : geometry_(geometry), spans_(spans) {
+        stack_.reserve(32);
+    }
     CsgEvaluation(const CsgEvaluation&) = delete;
     CsgEvaluation& operator=(const CsgEvaluation&) = delete;
 
     std::span<const Interval<T>> intervals() const { return stack_; }
+
+    // The first boundary ahead, if there is one, and whether it is an entry.
+    const Boundary<T>* first_ahead(bool& entering) const {
+        for (const Interval<T>& interval : stack_)
+            for (const Boundary<T>* boundary : {&interval.in, &interval.out})
+                if (boundary->ahead) {
+                    entering = boundary == &interval.in;
+                    return boundary;
+                }
+        return nullptr;
+    }
 
     void evaluate(std::uint32_t index) {
         const CsgNode& node = geometry_.csg_nodes[index];
@@ -49,20 +91,10 @@ class CsgEvaluation {
 
   private:
     void push_leaf(std::uint32_t index, const CsgNode& node) {
-        const Leaf& leaf = geometry_.leaves[node.first];
-        if (leaf.kind == LeafKind::quadric) {
-            const Spans<T> spans = quadric_leaf_spans(geometry_, leaf, ray_);
-            for (int i = 0; i < spans.count; ++i) push_span(index, leaf, spans.part[i]);
-        } else if (const Span<T> span = leaf_span(geometry_, leaf, ray_); span.hit) {
-            push_span(index, leaf, span);
-        }
-    }
-
-    void push_span(std::uint32_t index, const Leaf& leaf, const Span<T>& span) {
-        stack_.push_back({{span.t_in, boundary_error(geometry_, leaf, span.face_in, span.t_in, ray_), index,
-                           span.face_in, span.in_ahead},
-                          {span.t_out, boundary_error(geometry_, leaf, span.face_out, span.t_out, ray_), index,
-                           span.face_out, span.out_ahead}});
+        spans_.visit(node, [&](const Span<T>& span, const T& in_error, const T& out_error) {
+            stack_.push_back({{span.t_in, in_error, index, span.face_in, span.in_ahead},
+                              {span.t_out, out_error, index, span.face_out, span.out_ahead}});
+        });
     }
 
     std::uint32_t child(const CsgNode& node, std::uint32_t i) const { return geometry_.csg_children[node.first + i]; }
@@ -106,7 +138,7 @@ class CsgEvaluation {
     }
 
     const Geometry& geometry_;
-    const Ray<T>& ray_;
+    const Spans& spans_;
     // Most expressions fit in the buffer: no allocation on the way of a ray.
     alignas(Interval<T>) std::array<std::byte, 64 * sizeof(Interval<T>)> buffer_;
     std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};

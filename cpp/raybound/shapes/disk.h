@@ -13,8 +13,8 @@ inline Span<T> sheet_span(const Banded<T>& height, const Banded<T>& climb, Mask<
     Span<T> span;
     span.t_in = -(height.value / climb.value);
     span.t_out = infinity<T>;
-    span.face_in = span.face_out = 0;
-    span.hit = !parallel & inside;
+    span.face_in = span.face_out = Index<T>(0);
+    span.hit = inside & !parallel;
     span.in_ahead = (abs(height.value) > height.band) & ((height.value > T(0)) != (climb.value > T(0)));
     span.out_ahead = Mask<T>(false);
     return span;

@@ -4,6 +4,8 @@
 // so that the picture's decisions are those of double arithmetic, and T is a filter before it that never errs.
 #pragma once
 
+#include <utility>
+
 #include "raybound/shapes/geometry.h"
 
 namespace raybound {
@@ -61,7 +63,7 @@ struct SurfacePoint {
     T t, t_error;
     Vec3<T> point, point_error, normal, shading;
     UV<T> uv;
-    bool entering;
+    Mask<T> entering;
 };
 
 // What not everybody wants to know, and is zero unless asked for.
@@ -81,6 +83,12 @@ struct PlainPoint {
 };
 template <class T>
 PlainPoint<T> estimate_point(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const Ray<T>& ray);
+
+// What settles a tie of t: the primitive's object, then the face, counted within the object.
+using Rank = std::pair<std::uint32_t, std::int32_t>;
+inline Rank rank(const Geometry& geometry, std::uint32_t primitive, std::int32_t face) {
+    return {geometry.primitives[primitive].object, face};
+}
 
 // Once a ray has left a convex leaf outward (or a sheet on either side), it cannot meet it again.
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward);

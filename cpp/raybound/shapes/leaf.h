@@ -11,19 +11,24 @@
 
 namespace raybound {
 
+// In T or, for packs, in T's lanes.
 template <class T>
-const Mat3<T>& frame_linear(const Frame& frame) {
+inline decltype(auto) frame_linear(const Frame& frame) {
     if constexpr (std::is_same_v<T, float>)
-        return frame.linear;
+        return (frame.linear);
+    else if constexpr (std::is_same_v<T, double>)
+        return (frame.linear_wide);
     else
-        return frame.linear_wide;
+        return Mat3<T>(frame_linear<Scalar<T>>(frame));
 }
 template <class T>
-const Vec3<T>& frame_center(const Frame& frame) {
+inline decltype(auto) frame_center(const Frame& frame) {
     if constexpr (std::is_same_v<T, float>)
-        return frame.center;
+        return (frame.center);
+    else if constexpr (std::is_same_v<T, double>)
+        return (frame.center_wide);
     else
-        return frame.center_wide;
+        return Vec3<T>(frame_center<Scalar<T>>(frame));
 }
 
 // A point in local coordinates with the bound of its components' error: one rounding of the difference, three of the
@@ -36,8 +41,9 @@ struct LocalPoint {
 
 template <class T>
 inline LocalPoint<T> to_local(const Frame& frame, const Vec3<T>& p) {
-    const Vec3<T> r = p - frame_center<T>(frame);
-    const T reach = gamma<T>(6) * norm1(r) + gamma<T>(1) * norm1(frame_center<T>(frame));
+    const Vec3<T>& center = frame_center<T>(frame);
+    const Vec3<T> r = p - center;
+    const T reach = gamma<T>(6) * norm1(r) + gamma<T>(1) * norm1(center);
     return {frame_linear<T>(frame) * r, Vec3<T>(frame.row_norm) * reach};
 }
 

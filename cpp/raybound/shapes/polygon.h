@@ -53,32 +53,35 @@ inline Vec3<T> plane_gradient(const PolygonPlane& plane) {
 // zero counts for both), and between which t its vertices are.
 template <class T>
 struct Passing {
-    bool pierces = true;
-    T nearest = infinity<T>, farthest = -infinity<T>;
+    Mask<T> pierces;
+    T nearest, farthest;
 };
+
+// The lanes of a pack may have different largest components of their directions.
+template <class T>
+using LineShear = Shear<T, std::conditional_t<std::is_same_v<T, Scalar<T>>, AxisOrder<T>, LaneOrder<T>>>;
 
 template <class T>
 inline Passing<T> line_passing(std::span<const Vec3d> vertices, const Vec3<T>& origin, const Vec3<T>& direction) {
-    const Shear<T> shear(direction);
+    const LineShear<T> shear(direction);
     const auto seen = [&](const Vec3d& vertex) { return shear.permuted(Vec3<T>(vertex) - origin); };
     const Vec3<T> last = seen(vertices.back());
-    T ax = shear.x(last), ay = shear.y(last);
-    bool left = true, right = true;
-    Passing<T> passing;
+    T ax = shear.x(last), ay = shear.y(last), low = infinity<T>, high = -infinity<T>;
+    Mask<T> left(true), right(true);
     for (const Vec3d& vertex : vertices) {
         const Vec3<T> b = seen(vertex);
-        const T bx = shear.x(b), by = shear.y(b), t = b.z / shear.dz;
+        const T bx = shear.x(b), by = shear.y(b);
         const T side = edge_side(ax, ay, bx, by);
-        left = left && side >= T(0);
-        right = right && side <= T(0);
-        passing.pierces = left || right;
-        if (!passing.pierces) break;
-        passing.nearest = minimum(passing.nearest, t);
-        passing.farthest = maximum(passing.farthest, t);
+        left = left & (side >= T(0));
+        right = right & (side <= T(0));
+        if (none(left | right)) return {Mask<T>(false), low, high};
+        low = minimum(low, b.z);
+        high = maximum(high, b.z);
         ax = bx;
         ay = by;
     }
-    return passing;
+    const T one_end = low / shear.dz, other_end = high / shear.dz;  // rounding is monotone: those of all vertices' t
+    return {Mask<T>(left | right), minimum(one_end, other_end), maximum(one_end, other_end)};
 }
 
 // Where a line is all but parallel to the plane, t is between those of the vertices still: what filters rely on that
@@ -94,7 +97,7 @@ inline Span<T> polygon_span(const PolygonPlane& plane, std::span<const Vec3d> ve
     if (none(needed)) return span;
     const Passing<T> passing = line_passing(vertices, ray.origin, ray.direction);
     span.t_in = span.t_out = minimum(maximum(span.t_in, passing.nearest), passing.farthest);
-    span.hit = needed & Mask<T>(passing.pierces) & (span.t_in > T(0));
+    span.hit = needed & passing.pierces & (span.t_in > T(0));
     return span;
 }
 

@@ -34,7 +34,7 @@ struct Roots {
 // S = -2b/a the sum: P > 0 gives two roots of the sign of S, P < 0 one of each. Where |c| is within its band (the
 // origin is on the surface) one root is "at the origin" and not ahead; the other has the sign of S.
 template <class T>
-inline RootSigns<T> root_signs(const Quadratic<T>& q) {
+[[gnu::always_inline]] inline RootSigns<T> root_signs(const Quadratic<T>& q) {
     const T sign = copysign(T(1), q.a);
     const T product = q.c.value * sign, sum = -q.b * sign;
     const Mask<T> at_surface = abs(q.c.value) <= q.c.band;
@@ -55,7 +55,7 @@ inline T stable_numerator(const T& b, const T& discriminant) {
 }
 
 template <class T>
-inline Roots<T> solve(const Quadratic<T>& q) {
+[[gnu::always_inline]] inline Roots<T> solve(const Quadratic<T>& q) {
     const RootSigns<T> signs = root_signs(q);
     const T stable = stable_numerator(q.b, q.discriminant.value);
     const T first = stable / q.a;

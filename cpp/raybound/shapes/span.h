@@ -18,9 +18,24 @@ struct LocalRay {
 template <class T>
 struct Span {
     T t_in, t_out;
-    int face_in, face_out;
+    Index<T> face_in, face_out;
     Mask<T> hit, in_ahead, out_ahead;
 };
+
+// The first boundary ahead of a ray's origin.
+template <class T>
+struct FirstAhead {
+    T t;
+    Index<T> face;
+    Mask<T> hit, entering;
+};
+
+template <class T>
+[[gnu::always_inline]] inline FirstAhead<T> first_ahead(const Span<T>& span) {
+    const T t = select(span.in_ahead, span.t_in, span.t_out);
+    const Index<T> face = select(span.in_ahead, span.face_in, span.face_out);
+    return {t, face, Mask<T>(span.hit & (span.in_ahead | span.out_ahead)), span.in_ahead};
+}
 
 // A convex solid is the intersection of its pieces: the later entry, the earlier exit. On a tie the lower face, which
 // is the first piece's, stays.
@@ -52,11 +67,12 @@ inline Span<T> slab_span(const LocalRay<T>& ray, int axis, T lower, T upper, int
     Span<T> span;
     span.t_in = select(parallel, -infinity<T>, select(forward, at_lower, at_upper));
     span.t_out = select(parallel, infinity<T>, select(forward, at_upper, at_lower));
-    span.face_in = select(forward, lower_face, lower_face + 1);
-    span.face_out = select(forward, lower_face + 1, lower_face);
+    const Index<T> lower_plane(lower_face), upper_plane(lower_face + 1);
+    span.face_in = select(forward, lower_plane, upper_plane);
+    span.face_out = select(forward, upper_plane, lower_plane);
     span.hit = select(parallel, within, Mask<T>(true));
-    span.in_ahead = !parallel & (entry > band);
-    span.out_ahead = !parallel & (exit < -band);
+    span.in_ahead = Mask<T>(!parallel) & (entry > band);
+    span.out_ahead = Mask<T>(!parallel) & (exit < -band);
     return span;
 }
 

@@ -1,17 +1,8 @@
 #include "raybound/trace/search.h"
 
-#include <utility>
-
 namespace raybound {
 
 namespace {
-
-// What settles a tie of t.
-template <class W>
-std::pair<std::uint32_t, std::int32_t> rank(const Crossing<W>& crossing, std::uint32_t primitive,
-                                            const Geometry& geometry) {
-    return {geometry.primitives[primitive].object, crossing.face_offset + crossing.face};
-}
 
 // Takes the primitive's crossing if it comes first. A crossing cannot lie before the entry into the primitive's box:
 // the clamp makes that true of rounded numbers too, so that a traversal ordered by entries misses nothing.
@@ -21,10 +12,12 @@ void consider(const Geometry& geometry, std::uint32_t index, const WideRay<T>& r
     const Crossing<Wide<T>> crossing =
         first_crossing(geometry, geometry.primitives[index], ray, Asking<T>{filtered, brute_force, best.t});
     if (!crossing.hit) return;
+    const auto ranked = [&](std::uint32_t primitive, const Crossing<Wide<T>>& c) {
+        return rank(geometry, primitive, c.face_offset + c.face);
+    };
     const T t = maximum(T(crossing.t), entry);
     if (!(t < infinity<T>) || t > best.t) return;
-    if (best.hit && t == best.t && !(rank(crossing, index, geometry) < rank(best.crossing, best.primitive, geometry)))
-        return;
+    if (best.hit && t == best.t && !(ranked(index, crossing) < ranked(best.primitive, best.crossing))) return;
     best.crossing = crossing;
     best.t = t;
     best.primitive = index;

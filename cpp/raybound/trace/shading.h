@@ -53,19 +53,37 @@ template <class T>
 inline Mask<T> inside_cone(const Light& light, const Vec3<T>& p) {
     using W = Wide<T>;
     const Vec3<W> way = Vec3<W>(p) - Vec3<W>(light.position);
-    return dot(way, Vec3<W>(light.direction)) >= W(light.cos_cutoff) * length(way);
+    return Mask<T>(dot(way, Vec3<W>(light.direction)) >= W(light.cos_cutoff) * length(way));
+}
+
+// The way to a light: its direction, and the square of its length (1 for directional lights).
+template <class T>
+struct WayToLight {
+    Vec3<T> direction;
+    T squared;
+};
+
+template <class T>
+inline WayToLight<T> way_to_light(const Light& light, const Vec3<T>& p) {
+    if (light.kind == LightKind::directional) return {-Vec3<T>(light.direction), T(1)};
+    const Vec3<T> to_light = Vec3<T>(light.position) - p;
+    const T squared = dot(to_light, to_light);
+    return {to_light * rsqrt(squared), squared};
+}
+
+template <class T>
+inline Vec3<T> irradiance(const Light& light, const Vec3<T>& p, const T& squared) {
+    Vec3<T> e(light.intensity);
+    if (light.kind == LightKind::directional) return e;
+    if (light.falloff) e = saturate(Vec3<T>{e.x / squared, e.y / squared, e.z / squared});
+    if (light.kind == LightKind::spot) e = select(inside_cone(light, p), e, Vec3<T>{});
+    return select(squared > T(0), e, Vec3<T>{});
 }
 
 template <class T>
 inline Incoming<T> incoming(const Light& light, const Vec3<T>& p) {
-    if (light.kind == LightKind::directional) return {-Vec3<T>(light.direction), Vec3<T>(light.intensity)};
-    const Vec3<T> to_light = Vec3<T>(light.position) - p;
-    const T squared = dot(to_light, to_light);
-    const Vec3<T> l = to_light * rsqrt(squared);
-    Vec3<T> e(light.intensity);
-    if (light.falloff) e = saturate(Vec3<T>{e.x / squared, e.y / squared, e.z / squared});
-    if (light.kind == LightKind::spot) e = select(inside_cone(light, p), e, Vec3<T>{});
-    return {l, select(squared > T(0), e, Vec3<T>{})};
+    const WayToLight<T> way = way_to_light(light, p);
+    return {way.direction, irradiance(light, p, way.squared)};
 }
 
 template <class T>

@@ -1,17 +1,17 @@
 #include "raybound/trace/tracer.h"
 
-#include "raybound/trace/shading.h"
+#include "raybound/trace/local_light.h"
 
 namespace raybound {
 
-// A hit, ready for light: N is turned toward the viewer V.
+// A hit, ready for light and for the rays it sends on.
 template <class T>
 struct Tracer<T>::Shadable {
     const SurfacePoint<T>& hit;
     const Material& material;
     Vec3<T> side;    // the surface's own normal, turned toward the viewer
     Vec3<T> origin;  // of rays that leave on that side, outside the error box of the hit
-    Vec3<T> normal, view, diffuse;
+    LitPoint<T> lit;
     Departure outer, inner;  // of rays that leave on the viewer's side, and on the other
 };
 
@@ -68,9 +68,7 @@ Vec3<T> Tracer<T>::shade(const WideRay<T>& wide, const Nearest<T>& nearest, int 
                       material,
                       side,
                       offset_origin(hit.point, hit.point_error, side),
-                      hit.entering ? hit.shading : -hit.shading,
-                      -ray.direction,
-                      diffuse,
+                      {hit.point, hit.entering ? hit.shading : -hit.shading, -ray.direction, diffuse},
                       departure(geometry, nearest.primitive, hit.entering),
                       departure(geometry, nearest.primitive, !hit.entering)};
     *t = hit.t;
@@ -86,22 +84,17 @@ Vec3<T> Tracer<T>::shade(const WideRay<T>& wide, const Nearest<T>& nearest, int 
 template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
-    const T n_dot_v = dot(at.normal, at.view);
-    Vec3<T> sum = saturate(Vec3<T>(scene_.ambient()) * at.diffuse);
+    const T n_dot_v = dot(at.lit.normal, at.lit.view);
+    Vec3<T> sum = saturate(Vec3<T>(scene_.ambient()) * at.lit.diffuse);
     for (std::size_t i = 0; i < scene_.lights().size(); ++i) {
         const LightRecord& entry = scene_.lights()[i];
         const Light& light = *entry.light;
-        const Incoming<T> from = incoming(light, at.hit.point);
-        const T n_dot_l = dot(at.normal, from.direction);
-        const bool faces = n_dot_l > T(0), shines = max_component(from.irradiance) > T(0);
-        LightVerdict verdict = !faces ? LightVerdict::behind : LightVerdict::outside_cone;
+        const LightTerm<T> term = light_term(light, at.material, at.lit, n_dot_v);
+        LightVerdict verdict = !term.faces ? LightVerdict::behind : LightVerdict::outside_cone;
         std::int32_t blocker = -1;
-        if (faces && shines) {
-            const Vec3<T> factor =
-                saturate(reflectance(at.diffuse, at.material, at.normal, from.direction, at.view, n_dot_l, n_dot_v));
-            const bool weighs = Record::active || max_component(factor) > T(0);  // rays of weight zero are not traced
-            const bool lit = weighs && is_lit(at, i, from.direction, Record::active ? &blocker : nullptr);
-            if (lit) sum = saturate(sum + from.irradiance * factor);
+        if (Record::active ? term.faces && term.shines : term.weighs) {  // rays of weight zero are not traced
+            const bool lit = is_lit(at, i, term.direction, Record::active ? &blocker : nullptr);
+            if (lit) sum = saturate(sum + term.irradiance * term.factor);
             verdict = lit ? LightVerdict::lit : LightVerdict::blocked;
         }
         if constexpr (Record::active) record.node->lights.push_back({entry.id, verdict, blocker});
@@ -126,27 +119,20 @@ template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth,
                                  Record record) {
-    const Material& material = at.material;
-    Vec3<T> sum = local, reflect(material.reflect), transmit(material.transmit), through;
-    if (max_component(transmit) > T(0)) {
-        const T ior(material.ior);
-        const Refraction<T> refraction = refract(ray.direction, at.normal, at.hit.entering ? T(1) / ior : ior);
-        through = refraction.direction;
-        if (refraction.total) {  // the transmit weight joins the reflected ray
-            reflect = saturate(reflect + transmit);
-            transmit = {};
-            if constexpr (Record::active) record.node->total_internal_reflection = true;
-        }
-    }
-    if (max_component(reflect) > T(0)) {
+    const SecondaryRays<T> rays = secondary_rays(at.material, ray.direction, at.lit.normal, at.hit.entering);
+    if constexpr (Record::active) record.node->total_internal_reflection = rays.total;
+    Vec3<T> sum = local;
+    if (max_component(rays.reflect) > T(0)) {
         ++counts_.reflected;
-        const WideRay<T> next(at.origin, reflected_direction(ray.direction, at.normal));
-        sum = saturate(sum + reflect * radiance(next, at.outer, depth + 1, record.child(RayKind::reflected), nullptr));
+        const WideRay<T> next(at.origin, rays.reflected);
+        const Vec3<T> seen = radiance(next, at.outer, depth + 1, record.child(RayKind::reflected), nullptr);
+        sum = saturate(sum + rays.reflect * seen);
     }
-    if (max_component(transmit) > T(0)) {
+    if (max_component(rays.transmit) > T(0)) {
         ++counts_.refracted;
-        const WideRay<T> next(offset_origin(at.hit.point, at.hit.point_error, -at.side), through);
-        sum = saturate(sum + transmit * radiance(next, at.inner, depth + 1, record.child(RayKind::refracted), nullptr));
+        const WideRay<T> next(offset_origin(at.hit.point, at.hit.point_error, -at.side), rays.refracted);
+        const Vec3<T> seen = radiance(next, at.inner, depth + 1, record.child(RayKind::refracted), nullptr);
+        sum = saturate(sum + rays.transmit * seen);
     }
     return sum;
 }

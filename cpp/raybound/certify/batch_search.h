@@ -1,0 +1,41 @@
+// Searches for a whole batch of rays at once: one walk of the BVH with all that the rays pass through, and the kernels
+// for eight rays at each primitive on the way. Lane by lane the answer is that of searches ray by ray.
+#pragma once
+
+#include "raybound/certify/bundle.h"
+#include "raybound/certify/ray_batch.h"
+#include "raybound/scene/material.h"
+
+namespace raybound {
+
+// Counts of rays or bundles that have searched, and of tests of a ray at a candidate.
+struct SearchCounts {
+    std::uint64_t searches = 0, tests = 0;
+};
+
+using BatchHits = std::array<NearestPack, batch_packs>;
+
+// Whether whole batches, and packs, are worth a bundle: until one has to be given up.
+struct BatchMode {
+    bool batches = true, packs = true;
+};
+
+// The closest hits of all rays, by bundles where rays are alike, else ray by ray; returns those that went alone.
+RaySet closest_hits(const Snapshot& scene, const RayBatch& rays, BatchHits& hits, BatchMode& mode,
+                    SearchCounts& counts);
+
+// Where rays to a light begin, and what they have left.
+struct ShadowOrigins {
+    BatchVectors origin;
+    alignas(64) std::uint32_t departed[batch_size];
+};
+
+// The rays from a pack's origins to a light.
+RayPack shadow_rays(const ShadowOrigins& from, const Light& light, int pack);
+
+// Which of the rays to a light are blocked: those side by side together. `reach` tells how far apart the origins of one
+// bundle may be; `last` is a primitive to ask first, and is told which one has blocked.
+RaySet blocked_rays(const Snapshot& scene, const ShadowOrigins& from, const Light& light, RaySet rays, float reach,
+                    std::uint32_t& last, SearchCounts& counts);
+
+}  // namespace raybound

@@ -1,0 +1,62 @@
+// What ExactTracer knows of one batch at one depth of the ray tree.
+#pragma once
+
+#include <algorithm>
+
+#include "raybound/certify/exact_tracer.h"
+#include "raybound/shapes/lanes.h"
+
+namespace raybound {
+
+// What several rays of a batch hit: one side of one face.
+struct ExactTracer::Face {
+    std::uint32_t primitive = 0, leaf = 0;
+    std::int32_t face = 0, face_offset = 0;
+    bool entering = false;
+    std::uint32_t outer = 0, inner = 0;  // what rays that leave on the viewer's side, and on the other, have left
+    std::int32_t object = -1;
+    const Material* material = nullptr;
+    RaySet rays = 0;
+};
+
+// The cells of a piece of a face that is seen, and where in its chart the rays to lights begin.
+struct ExactTracer::Piece {
+    const Face* face;
+    int number;
+    FaceCells cells;
+    std::array<Vec3<DoublePack>, batch_packs> points{};
+};
+
+// What one depth of the ray tree knows of its batch, ray by ray; not on the stack: trees may be a thousand deep.
+struct ExactTracer::Level {
+    BatchHits hits;
+    std::vector<Face> faces;
+    std::vector<Piece> pieces;
+    std::uint8_t face_of[batch_size];
+
+    BatchVectors point, point_error, normal, shading, view, diffuse, side, sum;
+    ShadowOrigins outside;
+    BatchFloats t, way;  // from the ray's origin, and from the eye
+    RaySet entering = 0, hit = 0;
+
+    struct LightValue {
+        BatchVectors value;  // what it adds where it is not blocked
+        RaySet rays = 0;     // for which it may
+    };
+    std::vector<LightValue> lights;
+
+    // The rays that are sent on, reflected and refracted ones apart; by their own numbers.
+    struct Spawned {
+        RayBatch rays;
+        std::uint8_t parent[batch_size];
+        BatchVectors weight;
+    };
+    Spawned reflected, refracted;
+    BatchRadiance seen;
+};
+
+inline void mark(Searched& searched, Searched why) {
+    if (searched == Searched::no) searched = why;
+}
+
+}  // namespace raybound

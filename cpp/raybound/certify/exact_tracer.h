@@ -1,0 +1,73 @@
+// The base tracer's picture from certified lists: batches of rays instead of single ones, surface cells instead of
+// shadow searches, eight points side by side. Every bit of it is the base tracer's, whatever the cells know.
+#pragma once
+
+#include "raybound/certify/batch_search.h"
+#include "raybound/certify/face_cells.h"
+#include "raybound/trace/local_light.h"
+#include "raybound/trace/tracer.h"
+
+namespace raybound {
+
+// What one thread has done: searches of the scene by kind (bundles count once), tests of candidates instead, verdicts.
+struct ExactCounts {
+    RayCounts rays;
+    std::uint64_t tests = 0;
+    CellCounts cells;
+
+    ExactCounts& operator+=(const ExactCounts& o) {
+        rays += o.rays, tests += o.tests, cells += o.cells;
+        return *this;
+    }
+};
+
+struct ExactSettings {
+    int max_depth = 5;
+    double pixel_angle = 0;  // how fast a pixel's width grows with the distance
+    CellPolicy policy;
+    const std::atomic<bool>* cancelled = nullptr;
+};
+
+// One for each thread.
+class ExactTracer {
+  public:
+    ExactTracer(const Snapshot& scene, Cells& cells, const ExactSettings& settings);
+    ExactTracer(ExactTracer&&) noexcept;
+    ~ExactTracer();
+
+    // What has been learnt about rays is forgotten: no tile's paths and counts depend on what was done before.
+    void begin_tile();
+
+    // Traces the eye rays of a batch.
+    void trace_eye(const RayBatch& rays, BatchRadiance& out);
+
+    const ExactCounts& counts() const { return counts_; }
+
+  private:
+    struct Face;
+    struct Piece;
+    struct Level;
+
+    Level& level_at(int depth);
+    void trace(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, BatchRadiance& out);
+    void find_faces(const RayBatch& rays, Level& level);
+    void meet_face(const RayBatch& rays, Level& level, Face& face);
+    void meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index, int count);
+    void weigh_lights(Level& level, const Material& material, RaySet rays);
+    void settle_shadows(Level& level, std::size_t light, BatchRadiance& out);
+    RaySet ask_cells(Level& level, Face& face, std::size_t light, RaySet open, BatchRadiance& out);
+    Piece& piece_at(Level& level, Face& face, int index);
+    void test_candidates(Level& level, std::size_t light, RaySet rays, const CellAnswer& answer);
+    void add_secondary(Level& level, int depth, BatchRadiance& out);
+    void spawn(Level& level, const Material& material, RaySet hits);
+
+    const Snapshot& scene_;
+    Cells& cells_;
+    ExactSettings settings_;
+    ExactCounts counts_;
+    BatchMode eye_mode_;
+    std::vector<std::unique_ptr<Level>> levels_;  // of the ray tree, made when they are first reached
+    std::vector<std::uint32_t> last_blockers_;    // by light
+};
+
+}  // namespace raybound

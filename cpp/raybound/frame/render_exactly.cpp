@@ -1,0 +1,126 @@
+#include "raybound/frame/render.h"
+#include "raybound/frame/stopwatch.h"
+#include "raybound/frame/tiling.h"
+#include "raybound/geometry/lanes.h"
+
+namespace raybound {
+
+namespace {
+
+constexpr int block_size = 8;
+static_assert(block_size * block_size == batch_size);
+
+// What was searched for, as pixels tell it.
+Reason reason_of(Searched searched) {
+    switch (searched) {
+        case Searched::no:
+            return Reason::none;
+        case Searched::eye:
+            return Reason::silhouette;
+        case Searched::shadow:
+            return Reason::shadow;
+        case Searched::reflection:
+            return Reason::reflection;
+        case Searched::refraction:
+            return Reason::refraction;
+        case Searched::cost:
+            return Reason::cost;
+        case Searched::unsupported:
+            return Reason::unsupported;
+    }
+    return Reason::none;
+}
+
+Path path_of(Searched searched, std::int32_t object) {
+    if (object < 0) return Path::background;
+    if (searched == Searched::no) return Path::exact;
+    return searched == Searched::eye ? Path::traced : Path::partial;
+}
+
+// What a worker needs for one block, apart from its tracer.
+struct BlockRays {
+    RayBatch rays;
+    BatchRadiance seen;
+    std::array<std::size_t, batch_size> pixel;
+};
+
+// Four by two pixels to a pack: neighbours in both directions.
+constexpr int pack_columns = 4, pack_rows = 2;
+static_assert(pack_columns * pack_rows == pack_width);
+
+void add_pack(const Camera& camera, const FrameBuffers& buffers, const Tile& block, int x, int y, BlockRays& to) {
+    float column[pack_width], row[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane) {
+        column[lane] = float(x + lane % pack_columns);
+        row[lane] = float(y + lane / pack_columns);
+    }
+    const Vec3<FloatPack> directions = flushed(camera.direction_through(FloatPack::load(column), FloatPack::load(row)));
+    for (int lane = 0; lane < pack_width; ++lane) {
+        const int i = x + lane % pack_columns, j = y + lane / pack_columns;
+        if (i >= block.x1 || j >= block.y1) continue;
+        const std::size_t at = buffers.index(i, j);
+        if (buffers.error_bound[at] == 0) continue;
+        to.pixel[std::size_t(to.rays.count)] = at;
+        to.rays.add(camera.eye(), lane_of(directions, lane), 0, Departure::none);
+    }
+}
+
+void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffers, const Tile& block,
+                  const std::atomic<bool>& cancelled, BlockRays& work) {
+    RayBatch& rays = work.rays;
+    rays.count = 0;
+    for (int y = block.y0; y < block.y1; y += pack_rows)
+        for (int x = block.x0; x < block.x1; x += pack_columns) add_pack(camera, buffers, block, x, y, work);
+    if (rays.count == 0) return;
+    rays.pad();
+    const BatchRadiance& seen = work.seen;
+    tracer.trace_eye(rays, work.seen);
+    if (cancelled) return;
+    for (int k = 0; k < rays.count; ++k) {
+        const std::size_t at = work.pixel[std::size_t(k)];
+        buffers.image[at] = seen.radiance[k];
+        buffers.path[at] = std::uint8_t(path_of(seen.searched[k], seen.object[k]));
+        buffers.reason[at] = std::uint8_t(reason_of(seen.searched[k]));
+        buffers.object_id[at] = seen.object[k];
+        buffers.depth[at] = seen.t[k];
+        buffers.error_bound[at] = 0;
+    }
+}
+
+}  // namespace
+
+RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, FrameBuffers& buffers, Cells& cells,
+                                const RenderSettings& settings, const Watch& watch) {
+    std::atomic<bool> cancelled = false;
+    const ExactSettings exact{settings.max_depth, camera.pixel_angle(), {}, &cancelled};
+    std::vector<ExactTracer> tracers;
+    const int threads = settings.threads > 0 ? settings.threads : hardware_threads();
+    for (int k = 0; k < threads; ++k) tracers.emplace_back(scene, cells, exact);
+    std::vector<BlockRays> work(static_cast<std::size_t>(threads));
+    const Tiling tiling(buffers, 1);
+    const Stopwatch time;
+    RenderStatistics statistics;
+    statistics.threads = run_work(
+        tiling.count(), settings.threads, cancelled,
+        [&](int item, int worker) {
+            const Tile tile = tiling.tile(item);
+            tracers[std::size_t(worker)].begin_tile();
+            for (int y = tile.y0; y < tile.y1; y += block_size)
+                for (int x = tile.x0; x < tile.x1; x += block_size) {
+                    const Tile block{x, y, std::min(x + block_size, tile.x1), std::min(y + block_size, tile.y1)};
+                    render_block(tracers[std::size_t(worker)], camera, buffers, block, cancelled,
+                                 work[std::size_t(worker)]);
+                    if (cancelled) return;
+                }
+        },
+        watch);
+    statistics.seconds = time.seconds();
+    for (const ExactTracer& tracer : tracers) {
+        statistics.rays += tracer.counts().rays;
+        statistics.tests += tracer.counts().tests;
+        statistics.cells += tracer.counts().cells;
+    }
+    return statistics;
+}
+
+}  // namespace raybound
