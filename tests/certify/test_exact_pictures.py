@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 import pytest
 from tests.support.support_exact import EDITS, Tally, check_scene, compare
@@ -9,6 +13,8 @@ from tests.support.support_hard import all_scales, hard
 
 import raybound as rb
 from raybound.bench import workloads
+
+CORPUS = json.loads((Path(__file__).parents[1] / "corpus" / "exact.json").read_text())
 
 
 def scaled(scene: rb.Scene, width: int) -> rb.Camera:
@@ -36,11 +42,64 @@ def test_a_thousand_random_scenes(first: int) -> None:
     assert tally.share > 0.5
 
 
-# Scenes in which a certificate was wrong once.
-# 171, 579: a cell's patch reached beyond its parent's, whose list it was drawn from.
-@pytest.mark.parametrize("seed", [171, 579])
-def test_scenes_that_were_wrong(seed: int) -> None:
-    check_scene(seed, Tally())
+def off_its_plane(far: float, lamp: tuple[float, float, float], up: float) -> rb.Scene:
+    """A quad with a corner a few ulp above the others, and a light between the plane of that corner and the others."""
+    ulp, height = float(np.spacing(np.float32(far))), 0.0
+    for k in range(1, 40):
+        try:
+            quad = rb.Polygon([(far, far, k * ulp / 2), (far + 1, far, 0), (far + 1, far + 1, 0), (far, far + 1, 0)])
+        except ValueError:
+            break
+        height = k * ulp / 2
+    assert height > 0
+    scene = rb.Scene(ambient=0.1)
+    scene.add(quad, rb.Material())
+    scene.add(rb.Box((far - 1, far - 1, up), (far + 2, far + 2, up + 0.2)), rb.Material((0.8, 0.8, 0.8)))
+    scene.add_light(rb.PointLight((far + lamp[0], far + lamp[1], height * lamp[2])))
+    eye, target = (far + 2.5, far - 2, up * 0.3), (far + 0.5, far + 0.5, up)
+    scene.camera = rb.Camera(eye, target, fov=60, width=160, height=120)
+    return scene
+
+
+def steep_cone(ratio: int, seed: int) -> rb.Scene:
+    """A funnel whose base is 2**ratio times narrower than its top, over a floor."""
+    rng = np.random.default_rng(seed)
+    radius = 3.0 * 2.0**-ratio
+    scene = rb.Scene(ambient=0.1)
+    scene.add(rb.Box((-40, -40, -4.3), (40, 40, -4)), rb.Material((0.8, 0.8, 0.8)))
+    turn = rb.Transform.rotate(float(rng.uniform(0, 360)), axis=tuple(rng.normal(size=3).tolist()))
+    height = radius * 2.0 ** int(rng.integers(-2, 3))
+    scene.add(rb.Cone((0, 0, 0), (0, 0, height), radius=radius, top_radius=3), rb.Material(), transform=turn)
+    scene.add_light(rb.PointLight((2, 1, 9)))
+    scene.add_light(rb.DirectionalLight((0.2, -0.3, -1)))
+    scene.camera = rb.Camera((8, -8 / 3, 4), (-2, 0, -4), fov=50, width=160, height=120)
+    return scene
+
+
+def scenes_of(case: dict[str, Any]) -> list[rb.Scene]:
+    if "polygon_off_its_plane" in case:
+        lamps = [(0.90625, 0.0625, 0.3), (0.90625, 0.125, 0.35), (0.0625, 0.90625, 0.3), (0.9375, 0.0625, 0.25)]
+        return [off_its_plane(case["polygon_off_its_plane"], lamp, up) for lamp in lamps for up in (1.0, 0.05)]
+    if "steep_cone" in case:
+        return [steep_cone(case["steep_cone"], seed) for seed in range(6)]
+    try:
+        scene = workloads.load(case["spd"])
+    except workloads.UnavailableError as reason:
+        pytest.skip(f"RAYBOUND_DATA: {reason}")
+    scene.camera = scaled(scene, case["width"])
+    return [scene]
+
+
+@pytest.mark.parametrize("case", CORPUS, ids=lambda case: "-".join(map(str, list(case.items())[1])))
+def test_scenes_that_were_wrong(case: dict[str, Any]) -> None:
+    if "random_scene" in case:
+        check_scene(case["random_scene"], Tally())
+        return
+    for scene in scenes_of(case):
+        with rb.Renderer(scene) as exact, rb.Renderer(scene, method="base") as base:
+            assert scene.camera is not None
+            compare(exact, base, scene.camera, Tally(), case["why"])
+            compare(exact, base, scene.camera.dolly(0.3), Tally(), case["why"])
 
 
 @pytest.mark.parametrize("threads", [1, 2])

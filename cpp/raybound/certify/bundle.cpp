@@ -95,13 +95,28 @@ Shaft shaft_of(const Bundle& bundle, const Boxd& bounds, double scale) {
     return {near, far};
 }
 
+// A polygon's hits lie on the plane of its first vertex, its hull is that of all vertices: a ray meets them as far
+// apart as they are off each other, over the sine of its angle with the plane. Infinite for rays all but in the plane,
+// which may be told a t that is anywhere on it (D41). 0 for other leaves.
+double plane_slack(const Bundle& bundle, const Geometry& geometry, const Leaf& leaf, double scale) {
+    if (leaf.kind != LeafKind::polygon) return 0;
+    const PolygonPlane& plane = geometry.polygons[leaf.polygon];
+    double sine = 0;  // at least, of the rays that cross the plane before the light
+    if (bundle.is_directional())
+        sine = abs(dot(plane_gradient<double>(plane), bundle.target())) * 0.25;
+    else
+        sine = abs(plane_form(plane, geometry.vertices[plane.first_vertex], bundle.target()).value) / (4 * scale);
+    return sine > 0x1p-20 ? double(leaf.surface_error) / sine : infinity<double>;
+}
+
 // What is known of one leaf and one shaft.
 struct Asked {
     const Shaft& shaft;
     const Geometry& geometry;
     const Leaf& leaf;
-    Boxd bounds;   // of the primitive
-    double scale;  // of all distances involved
+    Boxd bounds;       // of the primitive
+    double scale;      // of all distances involved
+    double slack = 0;  // of a polygon's plane
 };
 
 // Is there a plane between them, with the margin on both sides? (Gilbert's iteration toward the point of the difference
@@ -123,12 +138,14 @@ bool separated(const ConvexHull& hull, const Shaft& shaft, double margin) {
 }
 
 bool misses_leaf(const Asked& asked) {
+    if (!(asked.slack < infinity<double>)) return false;
     const ConvexHull hull(asked.geometry, asked.leaf);
     if (!hull.is_known() || !(hull.condition() <= worst_condition)) return false;
 #ifdef RAYBOUND_SABOTAGE_CERTIFICATE
     const double margin = -0x1p-9 * asked.scale;  // the sabotage build: what may meet a little is said to miss
 #else
-    const double margin = separation * hull.condition() * asked.scale + 0x1p-26 * largest_coordinate_of(asked.bounds);
+    const double margin =
+        separation * hull.condition() * asked.scale + 0x1p-26 * largest_coordinate_of(asked.bounds) + asked.slack;
 #endif
     return separated(hull, asked.shaft, margin);
 }
@@ -145,15 +162,6 @@ bool misses(const Asked& asked, std::uint32_t index) {
     for (std::uint32_t i = 0; i < node.count; ++i)
         if (misses(asked, child(i)) != all) return !all;
     return all;
-}
-
-// Rays all but in a polygon's plane may be told a t that is anywhere on it (D41).
-bool is_seen_flat(const Bundle& bundle, const Geometry& geometry, const Leaf& leaf, double scale) {
-    if (leaf.kind != LeafKind::polygon) return false;
-    const PolygonPlane& plane = geometry.polygons[leaf.polygon];
-    if (bundle.is_directional()) return !(abs(dot(plane_gradient<double>(plane), bundle.target())) > 0x1p-18);
-    const Vec3d& first = geometry.vertices[plane.first_vertex];
-    return !(abs(plane_form(plane, first, bundle.target()).value) > 0x1p-18 * scale);
 }
 
 // The shortest edge of a polygon bounds how well double tells the sides of its edges.
@@ -177,6 +185,7 @@ bool blocks_all(const Bundle& bundle, const Asked& asked, const Primitive& primi
     if (!is_blocked_from(bundle, asked.geometry, primitive, bundle.origins().center)) return false;
     const ConvexHull hull(asked.geometry, asked.leaf);
     if (!hull.is_exact() || !(hull.condition() <= yes_condition)) return false;
+    if (!(asked.slack <= 0x1p-3 * depth * asked.scale)) return false;
     double share = 1;
     if (!bundle.is_directional())
         share = box_distance(asked.bounds, bundle.target()) / (bundle.largest_distance() * (1 + 0x1p-10));
@@ -246,8 +255,10 @@ BundleHits hits(const Bundle& bundle, const Geometry& geometry, const Primitive&
     const double scale = scale_of(bundle.bounds(), bounds);
     if (!(scale < infinity<double>)) return {};
     const Shaft shaft = shaft_of(bundle, bounds, scale);
-    const Asked asked{shaft, geometry, leaf_of(geometry, primitive), bounds, scale};
-    if (!is_seen_flat(bundle, geometry, asked.leaf, scale) && misses(asked, primitive)) return {Verdict::no};
+    const Leaf& leaf = leaf_of(geometry, primitive);
+    const double slack = primitive.is_csg ? 0 : plane_slack(bundle, geometry, leaf, scale);
+    const Asked asked{shaft, geometry, leaf, bounds, scale, slack};
+    if (misses(asked, primitive)) return {Verdict::no};
     if (primitive.is_csg) return {};
     if (blocks_all(bundle, asked, primitive)) return certain(bundle.origins().bounds(), bounds);
     return {};

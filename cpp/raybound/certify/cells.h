@@ -31,18 +31,7 @@ struct CellAnswer {
     CellVerdict verdict = CellVerdict::none;
     NoCell why = NoCell::unsupported;           // there is no verdict
     std::span<const std::uint32_t> candidates;  // primitives that may block; for `blocked` the one that does
-    ChartCell cell{};
-    // A list was drawn from those of these cells too, which do not hold all of the last one.
-    static constexpr int most_outer = 4;
-    std::array<ChartCell, most_outer> outer;
-    int outer_count = 0;
-
-    template <class T>
-    Mask<T> holds_for(const Vec3<T>& point) const {
-        Mask<T> inside = contains(cell, point);
-        for (int i = 0; i < outer_count; ++i) inside = inside & contains(outer[std::size_t(i)], point);
-        return inside;
-    }
+    ChartCell cell{};                           // for whose points the answer holds
 };
 
 // A place where rays to lights begin: one side of one piece of a face.

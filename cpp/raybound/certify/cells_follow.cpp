@@ -99,6 +99,7 @@ bool Cells::follow_objects(const Snapshot& scene) {
         if (same || gone) {
             change.regions.push_back(bounds_[i]);
             change.new_index.push_back(Change::none);
+            change.renumbered = change.renumbered || gone;
             ++i;
         }
         if (!gone) {

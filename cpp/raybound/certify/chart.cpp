@@ -10,7 +10,10 @@ constexpr double origin_slack = 0x1p-20;
 // Patches are this much larger than cells: more than the roundings of coordinates, as sizes are at least 2^-20 of them.
 constexpr double patch_growth = 1 + 0x1p-20;
 
-int axis_of_face(const Leaf& leaf, int face) { return leaf.kind == LeafKind::box ? face / 2 : 2; }
+int axis_of_face(const Leaf& leaf, int face) {
+    if (leaf.kind == LeafKind::quadric) return (face - 1) / 2;
+    return leaf.kind == LeafKind::box ? face / 2 : 2;
+}
 
 // A normal of the world in a frame's coordinates y = A (x - c): gradients travel by the transpose of the inverse.
 Vec3d inverse_transpose_times(const Mat3<double>& linear, const Vec3d& normal) {
@@ -23,7 +26,8 @@ int Chart::piece_for(const Geometry& geometry, std::uint32_t index, int face, co
     const Leaf& leaf = geometry.leaves[index];
     const bool side = (leaf.kind == LeafKind::cylinder || leaf.kind == LeafKind::cone) && face == 0;
     if (leaf.kind == LeafKind::polygon) return 2 * geometry.polygons[leaf.polygon].axis;
-    if (leaf.kind != LeafKind::sphere && !side) return 2 * axis_of_face(leaf, face);
+    const bool round = leaf.kind == LeafKind::sphere || (leaf.kind == LeafKind::quadric && face == 0);
+    if (!round && !side) return 2 * axis_of_face(leaf, face);
     Vec3d n = normal;
     if (leaf.frame >= 0) n = inverse_transpose_times(geometry.frames[std::size_t(leaf.frame)].linear_wide, normal);
     const Vec3d a = absolute(n);
@@ -34,7 +38,7 @@ int Chart::piece_for(const Geometry& geometry, std::uint32_t index, int face, co
 
 std::optional<Chart> Chart::make(const Geometry& geometry, std::uint32_t index, int face, int piece) {
     const Leaf& leaf = geometry.leaves[index];
-    if (!is_known(leaf)) return std::nullopt;
+    if (!is_known(geometry, leaf)) return std::nullopt;
     Chart chart(geometry, leaf, face, piece);
     const ChartRectangle& whole = chart.whole_;
     const double sum = whole.half_u + whole.half_v + chart.scale_u_ + chart.scale_v_ + norm1(chart.slack_);
@@ -84,6 +88,11 @@ void Chart::describe(const Geometry& geometry, const Leaf& leaf, int face) {
             if (leaf.frame < 0) lower = leaf.first - center_, upper = leaf.second - center_;
             plane_level_ = face % 2 == 1 ? upper[axis_] : lower[axis_];
             break;
+        case LeafKind::quadric:
+            if (face == 0) form_ = Form::quadric;
+            if (face != 0) plane_level_ = face % 2 == 0 ? radius_ : -radius_;
+            quadric_ = &geometry.quadrics[leaf.polygon];
+            break;
         case LeafKind::polygon: {
             const PolygonPlane& plane = geometry.polygons[leaf.polygon];
             lower = upper = {};
@@ -130,13 +139,11 @@ void Chart::bend(ChartCell& cell) const {
     const double least = square(0x1p-6 * outer);
     const double middle = std::sqrt(maximum(at(r.center_u, r.center_v), least));
     cell.level = sign_ * middle;
-    const auto slope = [&](bool axis_side, double u, double v) {
-        if (!axis_side) return 0.0;
-        return form_ == Form::cone ? -slope_ * (radius_ - slope_ * (u_is_axis ? u : v)) / middle : 0.0;
-    };
+    const double on_axis = u_is_axis ? r.center_u : r.center_v;
+    const double along_axis = form_ == Form::cone ? -slope_ * (radius_ - slope_ * on_axis) / middle : 0;
     const bool round_u = form_ == Form::sphere || !u_is_axis, round_v = form_ == Form::sphere || u_is_axis;
-    cell.slope_u = sign_ * (round_u ? -r.center_u / middle : slope(true, r.center_u, r.center_v));
-    cell.slope_v = sign_ * (round_v ? -r.center_v / middle : slope(true, r.center_u, r.center_v));
+    cell.slope_u = sign_ * (round_u ? -r.center_u / middle : along_axis);
+    cell.slope_v = sign_ * (round_v ? -r.center_v / middle : along_axis);
     // What it bends is seen at the corners and the sides' middles, twice as much taken: curvature changes within.
     double most = 0;
     for (int a = -1; a <= 1; ++a)
@@ -148,6 +155,32 @@ void Chart::bend(ChartCell& cell) const {
     cell.thickness += minimum(2 * most, 2 * outer);
 }
 
+// Where the line over (u, v) leaves the quadric on the side of the chart: F is a h^2 + 2 b h + c along it.
+double Chart::quadric_height(double u, double v) const {
+    Vec3d y;
+    y[(axis_ + 1) % 3] = u;
+    y[(axis_ + 2) % 3] = v;
+    const Vec3d half = quadric_half_gradient(*quadric_, y);
+    const double a = quadric_->form.row[axis_][axis_], b = half[axis_], c = quadric_value(*quadric_, y, half);
+    const double root = sign_ * std::sqrt(maximum(b * b - a * c, 0.0));
+    const double height = abs(a) > 0x1p-30 * quadric_->norm ? (root - b) / a : -c / (2 * b);
+    return abs(height) <= 2 * radius_ ? height : 0;
+}
+
+void Chart::bend_quadric(ChartCell& cell) const {
+    const ChartRectangle& r = cell.rectangle;
+    const auto at = [&](int a, int b) { return quadric_height(r.center_u + a * r.half_u, r.center_v + b * r.half_v); };
+    cell.level = at(0, 0);
+    cell.slope_u = (at(1, 0) - at(-1, 0)) / (2 * r.half_u);
+    cell.slope_v = (at(0, 1) - at(0, -1)) / (2 * r.half_v);
+    double most = 0;
+    for (int a = -1; a <= 1; ++a)
+        for (int b = -1; b <= 1; ++b)
+            most =
+                maximum(most, abs(at(a, b) - cell.level - cell.slope_u * a * r.half_u - cell.slope_v * b * r.half_v));
+    cell.thickness += minimum(2 * most, 2 * radius_);
+}
+
 ChartCell Chart::cell(const ChartRectangle& rectangle) const {
     ChartCell cell{rectangle, 0, 0, 0, slack_.z};
     cell.rectangle.half_u += slack_.x;
@@ -156,6 +189,8 @@ ChartCell Chart::cell(const ChartRectangle& rectangle) const {
         cell.level = plane_level_ + plane_u_ * rectangle.center_u + plane_v_ * rectangle.center_v;
         cell.slope_u = plane_u_;
         cell.slope_v = plane_v_;
+    } else if (form_ == Form::quadric) {
+        bend_quadric(cell);
     } else {
         bend(cell);
     }
@@ -172,9 +207,10 @@ Patch Chart::patch(const ChartCell& cell) const {
              up * (cell.thickness * more)}};
 }
 
-// Half of what patches are larger than cells is left for roundings.
+// A sixteenth of what patches are larger than cells, so that cells within cells within cells stay in all patches; more
+// than roundings.
 bool is_within(const ChartCell& inner, const ChartCell& outer) {
-    constexpr double larger = 1 + 0.5 * (patch_growth - 1);
+    constexpr double larger = 1 + (patch_growth - 1) / 16;
     const ChartRectangle &a = inner.rectangle, &b = outer.rectangle;
     const double du = a.center_u - b.center_u, dv = a.center_v - b.center_v;
     if (!(abs(du) + a.half_u <= b.half_u * larger && abs(dv) + a.half_v <= b.half_v * larger)) return false;

@@ -30,7 +30,10 @@ class Chart {
     static constexpr int pieces = 6;
 
     // Convex leaves have charts.
-    static bool is_known(const Leaf& leaf) { return leaf.kind != LeafKind::mesh && leaf.kind != LeafKind::quadric; }
+    static bool is_known(const Geometry& geometry, const Leaf& leaf) {
+        if (leaf.kind == LeafKind::quadric) return geometry.quadrics[leaf.polygon].fall == 0;
+        return leaf.kind != LeafKind::mesh;
+    }
 
     // The piece of a face that is seen best along a normal (of the world, any length).
     static int piece_for(const Geometry& geometry, std::uint32_t leaf, int face, const Vec3d& normal);
@@ -60,13 +63,15 @@ class Chart {
     Patch patch(const ChartCell& cell) const;
 
   private:
-    enum class Form : std::uint8_t { plane, sphere, cylinder, cone };
+    enum class Form : std::uint8_t { plane, sphere, cylinder, cone, quadric };
 
     Chart(const Geometry& geometry, const Leaf& leaf, int face, int piece);
     void place(const Geometry& geometry, const Leaf& leaf);
     void describe(const Geometry& geometry, const Leaf& leaf, int face);
     void finish();
     void bend(ChartCell& cell) const;
+    void bend_quadric(ChartCell& cell) const;
+    double quadric_height(double u, double v) const;
 
     Mat3<double> linear_, to_world_;  // of directions
     Vec3d center_;                    // of the coordinates
@@ -75,6 +80,7 @@ class Chart {
     double sign_ = 1;
     Form form_ = Form::plane;
     double radius_ = 1, slope_ = 0;
+    const Quadric* quadric_ = nullptr;
     double plane_level_ = 0, plane_u_ = 0, plane_v_ = 0;  // height = level + u_slope u + v_slope v
     ChartRectangle whole_{};
     double scale_u_ = 1, scale_v_ = 1;

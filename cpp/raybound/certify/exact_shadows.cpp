@@ -27,7 +27,7 @@ void ExactTracer::settle_shadows(Level& level, std::size_t light, BatchRadiance&
             continue;
         }
         rest |= open;
-        const bool charted = Chart::is_known(scene_.geometry().leaves[face.leaf]);
+        const bool charted = Chart::is_known(scene_.geometry(), scene_.geometry().leaves[face.leaf]);
         const Searched why = charted ? Searched::cost : Searched::unsupported;
         for (RaySet each = open; each != 0;) mark(out.searched[take_first(each)], why);
     }
@@ -72,11 +72,11 @@ RaySet ExactTracer::ask_cells(Level& level, Face& face, std::size_t light, RaySe
             const int lane = first % pack_width;
             const Vec3d point{at.x.v[lane], at.y.v[lane], at.z.v[lane]};
             answer = piece.cells.ask(light, point);
-            if (answer.verdict != CellVerdict::none && answer.holds_for(point)) {
+            if (answer.verdict != CellVerdict::none && contains(answer.cell, point)) {
                 RaySet inside = 0;
                 for (int k = first / pack_width; k < batch_packs; ++k)
                     if (const std::uint32_t lanes = lanes_of_pack(open, k); lanes != 0)
-                        inside |= set_of_pack(lanes & bits(answer.holds_for(piece.points[std::size_t(k)])), k);
+                        inside |= set_of_pack(lanes & bits(contains(answer.cell, piece.points[std::size_t(k)])), k);
                 test_candidates(level, light, inside, answer);
                 open &= ~inside;
                 continue;

@@ -123,6 +123,7 @@ CellAnswer FaceCells::ask(std::size_t light, const Vec3d& point) {
     const std::uint32_t slot = Cells::cell_words_without_lights + cells_.slot_of_light_[light];
     ChartRectangle rectangle = chart_->whole();
     std::uint32_t cell = root_, parent = 0;
+    bool first = true;  // of the cells that have lists
     for (;;) {
         const double u = chart_->length_u(rectangle), v = chart_->length_v(rectangle);
         const double length = maximum(u, v);
@@ -130,22 +131,15 @@ CellAnswer FaceCells::ask(std::size_t light, const Vec3d& point) {
         cells_.touch(cell);
         if (length <= policy_.first_cells * footprint_) {
             // (Whether the verdict is there already must not matter: which thread asks first is chance.)
-            if (parent == 0 && u * v < policy_.least_rays * square(footprint_)) {
+            if (first && u * v < policy_.least_rays * square(footprint_)) {
                 answer.why = NoCell::cost;
                 return answer;
             }
+            first = false;
             std::uint32_t entry = cells_.arena_.word(cell + slot).load(std::memory_order_acquire);
-            // A list that is drawn from the parent's is that of points in both cells.
+            // A list is drawn from the parent's if all of the cell lies in the parent's patch: so it holds by itself.
             const ChartCell here = chart_->cell(rectangle);
-            if (parent == 0 || entries::is_too_long(parent)) {
-                answer.outer_count = 0;
-            } else if (!is_within(here, answer.cell)) {
-                if (answer.outer_count == CellAnswer::most_outer) {
-                    answer.why = NoCell::crowded;
-                    return answer;
-                }
-                answer.outer[std::size_t(answer.outer_count++)] = answer.cell;
-            }
+            if (parent != 0 && !is_within(here, answer.cell)) parent = 0;
             answer.cell = here;
             if (entry == 0) {
                 const Bundle bundle = light_bundle(chart_->patch(here), *scene_.lights()[light].light);

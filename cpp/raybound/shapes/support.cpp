@@ -43,7 +43,8 @@ ConvexHull::ConvexHull(const Geometry& geometry, const Leaf& leaf) : geometry_(g
         to_world_ = inverse(frame_->linear_wide);
         condition_ =
             maximum(maximum(double(frame_->row_norm.x), double(frame_->row_norm.y)), double(frame_->row_norm.z)) *
-            maximum(norm_infinity(to_world_), 1 * frame_->inverse_norm);
+            maximum(norm_infinity(to_world_), frame_->inverse_norm);
+        if (leaf.kind == LeafKind::cone) condition_ *= maximum(1.0, std::abs(frame_->slope));  // of its form's terms
         const bool centered = leaf.kind == LeafKind::cylinder || leaf.kind == LeafKind::cone;
         center_ = frame_->center_wide;
         if (centered) center_ = center_ + to_world_.column(2) * (0.5 * double(frame_->radius));

@@ -19,7 +19,7 @@ class ConvexHull {
     const Vec3d& center() const { return center_; }
 
     // How many times longer an error of the leaf's own coordinates may be in the world than where it was made: the
-    // condition of its frame (1 without one).
+    // condition of its frame (1 without one), and of a cone's slope.
     double condition() const { return condition_; }
 
     // The point of the hull farthest along n; its error is a few roundings of its coordinates.
