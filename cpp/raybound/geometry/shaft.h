@@ -66,6 +66,11 @@ class SweptBox {
         if (!(abs(rate) < least_direction<float>)) return rate;
         return rate * float(outward) > 0 ? float(outward) * least_direction<float> : 0.0f;
     }
+
+    // From when, and until when, all sides are met.
+    template <class V, class Planes>
+    void times(const Planes& plane, V& first, V& last) const;
+
     std::array<Side, 3> lower_, upper_;
     float s_max_;
 };
@@ -84,40 +89,32 @@ inline SweptBox::SweptBox(const Boxd& start, const Vec3d& least_rate, const Vec3
     }
 }
 
+template <class V, class Planes>
+inline void SweptBox::times(const Planes& plane, V& first, V& last) const {
+    const auto bound = [&](const Side& side, const V& face) {
+        const V time = (face - V(side.at)) * V(side.reciprocal);
+        if (side.begins)
+            first = maximum(first, time);
+        else
+            last = minimum(last, time);
+    };
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        bound(lower_[i], plane(i + 3));
+        bound(upper_[i], plane(i));
+    }
+}
+
 template <class Planes>
 inline std::uint32_t SweptBox::meets(const Planes& plane, float until, Pack<float>& near) const {
-    using P = Pack<float>;
-    P first(0.0f), last(minimum(until, s_max_));
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        const Side &a = lower_[i], &b = upper_[i];
-        const P low = (plane(i + 3) - P(a.at)) * P(a.reciprocal), high = (plane(i) - P(b.at)) * P(b.reciprocal);
-        if (a.begins)
-            first = maximum(first, low);
-        else
-            last = minimum(last, low);
-        if (b.begins)
-            first = maximum(first, high);
-        else
-            last = minimum(last, high);
-    }
+    Pack<float> first(0.0f), last(minimum(until, s_max_));
+    times(plane, first, last);
     near = first;
-    return bits(first <= last * P(widening));
+    return bits(first <= last * Pack<float>(widening));
 }
 
 inline bool SweptBox::meets(const Box& box, float until, float& near) const {
     float first = 0, last = minimum(until, s_max_);
-    for (int i = 0; i < 3; ++i) {
-        const Side &a = lower_[std::size_t(i)], &b = upper_[std::size_t(i)];
-        const float low = (box.upper[i] - a.at) * a.reciprocal, high = (box.lower[i] - b.at) * b.reciprocal;
-        if (a.begins)
-            first = maximum(first, low);
-        else
-            last = minimum(last, low);
-        if (b.begins)
-            first = maximum(first, high);
-        else
-            last = minimum(last, high);
-    }
+    times([&](std::uint32_t i) { return i < 3 ? box.lower[int(i)] : box.upper[int(i) - 3]; }, first, last);
     near = first;
     return first <= last * widening;
 }
