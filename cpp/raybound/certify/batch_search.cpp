@@ -102,9 +102,7 @@ RaySet search_packs(const Snapshot& scene, const RayBatch& rays, int begin, int 
 
 bool is_blocked_alone(const Snapshot& scene, const ShadowOrigins& from, const Light& light, int index,
                       std::uint32_t& last) {
-    const Vec3f origin = from.origin[index];
-    const WideRay<float> ray = light.kind == LightKind::directional ? WideRay<float>(origin, -Vec3f(light.direction))
-                                                                    : WideRay<float>::segment(origin, light.position);
+    const WideRay<float> ray = ray_to_light(from.origin[index], light);
     return is_blocked<float>(scene, ray, Departure{from.departed[index]}, nullptr, Acceleration::bvh, &last);
 }
 
@@ -138,8 +136,7 @@ class ShadowBundle {
     Patch patch(RaySet rays) const {
         Boxd box;
         while (rays != 0) box.extend(Vec3d(from_.origin[take_first(rays)]));
-        const Vec3d reach = box.extent() * (0.5 * (1 + 0x1p-40));
-        return {box.center(), {Vec3d{reach.x, 0, 0}, Vec3d{0, reach.y, 0}, Vec3d{0, 0, reach.z}}};
+        return Patch::around(box);
     }
 
     void ask(std::uint32_t primitive, SearchCounts& counts) {
@@ -188,9 +185,7 @@ RaySet closest_hits(const Snapshot& scene, const RayBatch& rays, BatchHits& hits
 }
 
 RayPack shadow_rays(const ShadowOrigins& from, const Light& light, int pack) {
-    const Vec3<FloatPack> origin = from.origin.pack(pack);
-    if (light.kind == LightKind::directional) return RayPack(origin, -Vec3<FloatPack>(light.direction));
-    return RayPack::segment(origin, Vec3<FloatPack>(light.position));
+    return ray_to_light(from.origin.pack(pack), light);
 }
 
 RaySet blocked_rays(const Snapshot& scene, const ShadowOrigins& from, const Light& light, RaySet rays, float reach,

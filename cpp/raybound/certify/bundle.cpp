@@ -74,11 +74,6 @@ struct Shaft {
     }
 };
 
-Patch patch_of(const Boxd& box) {
-    const Vec3d half = box.extent() * (0.5 * (1 + 0x1p-40));
-    return {box.center(), {Vec3d{half.x, 0, 0}, Vec3d{0, half.y, 0}, Vec3d{0, 0, half.z}}};
-}
-
 // A directional shaft ends behind the primitive: what lies beyond is of no interest.
 Shaft shaft_of(const Bundle& bundle, const Boxd& bounds, double scale) {
     const Patch& near = bundle.origins();
@@ -227,7 +222,6 @@ Bundle::Bundle(const Patch& origins, const Vec3d& target, bool directional)
     : origins_(origins), target_(target), directional_(directional), swept_(swept_box(origins, target, directional)) {
     if (directional) return;
     const Boxd box = origins.bounds();
-    least_ = box_distance(box, target) * (1 - 0x1p-40);
     most_ = length(maximum(absolute(box.lower - target), absolute(box.upper - target))) * (1 + 0x1p-40);
     beside_light_ = round_outward(widened({target, target}, 0x1p-9 * most_));
 }
@@ -277,7 +271,7 @@ Verdict hits(const RayBundle& bundle, const Geometry& geometry, const Primitive&
     all.extend(far);
     const double scale = scale_of(all, bounds);
     if (!(scale < infinity<double>)) return Verdict::unknown;
-    const Shaft shaft{patch_of(bundle.origins()), patch_of(far)};
+    const Shaft shaft{Patch::around(bundle.origins()), Patch::around(far)};
     return misses({shaft, geometry, leaf, bounds, scale}, primitive) ? Verdict::no : Verdict::unknown;
 }
 

@@ -26,8 +26,7 @@ class Bundle {
         return swept_.meets(plane, infinity<float>, near) | overlapped(plane);
     }
 
-    double smallest_distance() const { return least_; }  // from origins to the target
-    double largest_distance() const { return most_; }
+    double largest_distance() const { return most_; }  // from origins to the target
 
   private:
     Bundle(const Patch& origins, const Vec3d& target, bool directional);
@@ -40,7 +39,7 @@ class Bundle {
     Patch origins_;
     Vec3d target_;
     bool directional_;
-    double least_ = 0, most_ = 0;
+    double most_ = 0;
     Box beside_light_;
     SweptBox swept_;
 };

@@ -11,7 +11,7 @@
 #include "raybound/certify/arena.h"
 #include "raybound/certify/bundle.h"
 #include "raybound/certify/chart.h"
-#include "raybound/scene/snapshot.h"
+#include "raybound/trace/search.h"
 
 namespace raybound {
 
@@ -40,7 +40,7 @@ struct FaceKey {
     std::int32_t face = 0, face_offset = 0;
     int piece = 0;
     bool outward = true;
-    std::uint32_t departed = 0xffffffffu;  // the primitive that the rays have left, or none
+    std::uint32_t departed = Departure::none;  // the primitive that the rays have left, or none
 };
 
 class Cells {

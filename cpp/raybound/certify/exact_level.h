@@ -53,6 +53,19 @@ struct ExactTracer::Level {
     };
     Spawned reflected, refracted;
     BatchRadiance seen;
+
+    // Calls visit(material, rays) for the hits of each material together.
+    template <class Visit>
+    void visit_materials(const Visit& visit) const {
+        for (RaySet open = hit; open != 0;) {
+            const Material* material = faces[face_of[std::countr_zero(open)]].material;
+            RaySet same = 0;
+            for (const Face& face : faces)
+                if (face.material == material) same |= face.rays;
+            visit(*material, same);
+            open &= ~same;
+        }
+    }
 };
 
 inline void mark(Searched& searched, Searched why) {

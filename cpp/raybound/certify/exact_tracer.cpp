@@ -66,15 +66,7 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
     for (Face& face : level.faces) meet_face(rays, level, face);
 
     for (Level::LightValue& light : level.lights) light.rays = 0;
-    RaySet open = level.hit;
-    while (open != 0) {  // those of one material together
-        const Material* material = level.faces[level.face_of[std::countr_zero(open)]].material;
-        RaySet same = 0;
-        for (const Face& face : level.faces)
-            if (face.material == material) same |= face.rays;
-        weigh_lights(level, *material, same);
-        open &= ~same;
-    }
+    level.visit_materials([&](const Material& material, RaySet hits) { weigh_lights(level, material, hits); });
     for (std::size_t light = 0; light < level.lights.size(); ++light) settle_shadows(level, light, out);
 
     for (int k = 0; k < rays.packs(); ++k) {
@@ -209,15 +201,9 @@ void ExactTracer::spawn(Level& level, const Material& material, RaySet hits) {
 // local + reflect L(R) + transmit L(T), in this order.
 void ExactTracer::add_secondary(Level& level, int depth, BatchRadiance& out) {
     level.reflected.rays.count = level.refracted.rays.count = 0;
-    RaySet open = level.hit;
-    while (open != 0) {
-        const Material& material = *level.faces[level.face_of[std::countr_zero(open)]].material;
-        RaySet same = 0;
-        for (const Face& face : level.faces)
-            if (face.material == &material) same |= face.rays;
-        open &= ~same;
-        if (material.reflect != Vec3f{} || material.transmit != Vec3f{}) spawn(level, material, same);
-    }
+    level.visit_materials([&](const Material& material, RaySet hits) {
+        if (material.reflect != Vec3f{} || material.transmit != Vec3f{}) spawn(level, material, hits);
+    });
     for (const bool reflected : {true, false}) {
         Level::Spawned& next = reflected ? level.reflected : level.refracted;
         if (next.rays.count == 0) continue;

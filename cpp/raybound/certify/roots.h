@@ -2,7 +2,6 @@
 #pragma once
 
 #include "raybound/certify/cells.h"
-#include "raybound/trace/search.h"
 
 namespace raybound {
 

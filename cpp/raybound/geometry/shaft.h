@@ -14,8 +14,14 @@ struct Patch {
     Vec3d reach() const { return absolute(axis[0]) + absolute(axis[1]) + absolute(axis[2]); }
     Boxd bounds() const { return {center - reach(), center + reach()}; }
 
-    // The corner whose r_i are -1 or 1 by the bits of `index`, r_i lengthened by `more` in space.
-    Vec3d corner(int index, double more = 0) const;
+    // One that holds a box; its own roundings are within what it is larger.
+    static Patch around(const Boxd& box) {
+        const Vec3d half = box.extent() * (0.5 * (1 + 0x1p-40));
+        return {box.center(), {Vec3d{half.x, 0, 0}, Vec3d{0, half.y, 0}, Vec3d{0, 0, half.z}}};
+    }
+
+    // The corner whose r_i are -1 or 1 by the bits of `index`.
+    Vec3d corner(int index) const;
 
     // The point farthest along n.
     Vec3d support(const Vec3d& n) const {
@@ -25,11 +31,10 @@ struct Patch {
     }
 };
 
-inline Vec3d Patch::corner(int index, double more) const {
+inline Vec3d Patch::corner(int index) const {
     Vec3d p = center;
     for (int i = 0; i < 3; ++i) p = p + (index >> i & 1 ? axis[std::size_t(i)] : -axis[std::size_t(i)]);
-    const Vec3d out = p - center;
-    return p + Vec3d{copysign(more, out.x), copysign(more, out.y), copysign(more, out.z)};
+    return p;
 }
 
 // A box that moves and grows: at the time s, 0 <= s <= s_max, it is [lower + s lower_rate, upper + s upper_rate]. Rays

@@ -21,6 +21,13 @@ struct Departure {
 };
 Departure departure(const Geometry& geometry, std::uint32_t primitive, bool outward);
 
+// The ray to a light from where it leaves a surface: it ends at the light itself.
+template <class T>
+inline WideRay<T> ray_to_light(const Vec3<T>& origin, const Light& light) {
+    if (light.kind == LightKind::directional) return WideRay<T>(origin, -Vec3<T>(light.direction));
+    return WideRay<T>::segment(origin, Vec3<T>(light.position));
+}
+
 enum class Acceleration { bvh, brute_force };
 
 // `from`: where the search may begin, for a ray of a bundle that it was found for.

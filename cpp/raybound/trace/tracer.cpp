@@ -93,7 +93,7 @@ Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
         LightVerdict verdict = !term.faces ? LightVerdict::behind : LightVerdict::outside_cone;
         std::int32_t blocker = -1;
         if (Record::active ? term.faces && term.shines : term.weighs) {  // rays of weight zero are not traced
-            const bool lit = is_lit(at, i, term.direction, Record::active ? &blocker : nullptr);
+            const bool lit = is_lit(at, i, Record::active ? &blocker : nullptr);
             if (lit) sum = saturate(sum + term.irradiance * term.factor);
             verdict = lit ? LightVerdict::lit : LightVerdict::blocked;
         }
@@ -102,14 +102,10 @@ Vec3<T> Tracer<T>::direct_light(const Shadable& at, Record record) {
     return sum;
 }
 
-// A shadow ray ends at the light itself.
 template <class T>
-bool Tracer<T>::is_lit(const Shadable& at, std::size_t index, const Vec3<T>& direction, std::int32_t* blocker) {
-    const Light& light = *scene_.lights()[index].light;
+bool Tracer<T>::is_lit(const Shadable& at, std::size_t index, std::int32_t* blocker) {
     ++counts_.shadow;
-    const WideRay<T> ray = light.kind == LightKind::directional
-                               ? WideRay<T>(at.origin, direction)
-                               : WideRay<T>::segment(at.origin, Vec3<T>(light.position));
+    const WideRay<T> ray = ray_to_light(at.origin, *scene_.lights()[index].light);
     return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration,
                        blocker ? nullptr : &last_blockers_[index]);
 }

@@ -58,7 +58,7 @@ class alignas(64) Tracer {
     Vec3<T> direct_light(const Shadable& at, Record record);
     template <class Record>
     Vec3<T> add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth, Record record);
-    bool is_lit(const Shadable& at, std::size_t light, const Vec3<T>& direction, std::int32_t* blocker);
+    bool is_lit(const Shadable& at, std::size_t light, std::int32_t* blocker);
 
     const Snapshot& scene_;
     TraceSettings settings_;

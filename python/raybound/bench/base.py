@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics as _statistics
 import time
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any
 
 from .. import _core, reporting
@@ -47,14 +48,9 @@ def measure(
         "left_out": {},
     }
     for name in workloads.default_names() if names is None else names:
-        try:
-            result["scenes"][name] = _scene(name, width, height, repeat, threads)
-        except workloads.UnavailableError as reason:
-            result["left_out"][name] = str(reason)
-    try:
-        result["mesh"] = _mesh(triangles, rays, repeat, threads)
-    except workloads.UnavailableError as reason:
-        result["left_out"]["mesh"] = str(reason)
+        part = partial(_scene, name, width, height, repeat, threads)
+        workloads.keep(result, result["scenes"], name, part)
+    workloads.keep(result, result, "mesh", partial(_mesh, triangles, rays, repeat, threads))
     return result
 
 

@@ -22,7 +22,7 @@ from ..renderer import Renderer
 from ..statistics import RAYS
 from . import workloads, yardstick
 from .tables import Table
-from .workloads import Floats, UnavailableError
+from .workloads import Floats, UnavailableError, keep
 
 NAMES = ("balls_s4", "tetra_s6", "mount_s6")  # what the yardstick reads in full
 FRAMES = 2  # of a round; the first warms the caches
@@ -47,17 +47,9 @@ def measure(
             result["left_out"].update(dict.fromkeys(names, str(reason)))
             names = ()
         for name in names:
-            _keep(result, result["scenes"], name, partial(_scene, program, name, repeat))
-        _keep(result, result, "mesh", partial(_mesh, triangles, rays, repeat))
+            keep(result, result["scenes"], name, partial(_scene, program, name, repeat))
+        keep(result, result, "mesh", partial(_mesh, triangles, rays, repeat))
     return result
-
-
-def _keep(result: dict[str, Any], into: dict[str, Any], name: str, part: Callable[[], dict[str, Any]]) -> None:
-    """Puts the measurements of a part under its name, or the reason why there are none under "left_out"."""
-    try:
-        into[name] = part()
-    except UnavailableError as reason:
-        result["left_out"][name] = str(reason)
 
 
 def _scene(program: Path, name: str, repeat: int) -> dict[str, Any]:

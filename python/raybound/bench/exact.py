@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics as _statistics
 from collections.abc import Sequence
 from contextlib import closing
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -62,10 +63,8 @@ def measure(
         "left_out": {},
     }
     for name in workloads.default_names() if names is None else names:
-        try:
-            result["scenes"][name] = _scene(name, width, height, repeat, threads)
-        except workloads.UnavailableError as reason:
-            result["left_out"][name] = str(reason)
+        part = partial(_scene, name, width, height, repeat, threads)
+        workloads.keep(result, result["scenes"], name, part)
     return result
 
 

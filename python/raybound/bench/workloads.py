@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -62,6 +63,14 @@ def load(name: str) -> Scene:
         return load_scene(path)
     except (ValueError, ImportError) as error:
         raise UnavailableError(str(error)) from error
+
+
+def keep(result: dict[str, Any], into: dict[str, Any], name: str, part: Callable[[], Any]) -> None:
+    """Puts the measurements of a part under its name, or the reason why there are none under result["left_out"]."""
+    try:
+        into[name] = part()
+    except UnavailableError as reason:
+        result["left_out"][name] = str(reason)
 
 
 def bumpy_sphere(rings: int, columns: int) -> tuple[Floats, npt.NDArray[np.int32]]:
