@@ -70,10 +70,11 @@ py::dict bundle_hits(const Snapshot& scene, const Doubles& patch, const Floats& 
 
 void register_surface_cells(py::module_& m) {
     py::class_<Cells>(m, "Cells", py::is_final())
-        .def(py::init<std::size_t>(), "memory"_a)
+        .def(py::init<std::size_t, bool>(), "memory"_a, py::kw_only(), "keeps_blocks"_a = true)
         .def("clear", &Cells::clear)
         .def_property_readonly("bytes", &Cells::bytes)
         .def_property_readonly("count", &Cells::count)
+        .def_property_readonly("block_bytes", [](const Cells& cells) { return cells.blocks().bytes(); })
         .def("views", &views_dict, "snapshot"_a, "object"_a)
         .def("view_at", &view_at, "snapshot"_a, "object"_a, "face"_a, "point"_a);
     m.def("bundle_hits", &bundle_hits, "snapshot"_a, "patch"_a, "target"_a, py::kw_only(), "directional"_a);

@@ -78,7 +78,8 @@ class Renderer:
     max_depth : int
         1..1000. The eye ray has depth 1; a surface at this depth spawns nothing.
     editable : bool
-        Whether to keep what makes the next frame after an edit fast.
+        Whether to keep what the rays of the last frame have met, up to half of `memory` and about 14 bytes a pixel: the
+        next frame of the same camera then asks only about what edits have touched.
 
     Calls are safe from any thread, but one at a time: another one while a frame is rendered raises RuntimeError. As a
     context manager a renderer releases its memory at the end; afterwards calls raise RuntimeError. A renderer cannot be
@@ -109,7 +110,7 @@ class Renderer:
         self._threads = _validate.integer("Renderer", "threads", threads, lowest=0, highest=1024)
         self._max_depth = _validate.integer("Renderer", "max_depth", max_depth, lowest=1, highest=1000)
         self._editable = _validate.flag("Renderer", "editable", editable)
-        self._cells = None if self._method == "base" else _core.Cells(self._memory)
+        self._cells = None if self._method == "base" else _core.Cells(self._memory, keeps_blocks=self._editable)
         self._lock = threading.Lock()
         self._closed = False
         self._totals = Totals()

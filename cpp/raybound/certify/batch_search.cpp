@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "raybound/geometry/lanes.h"
+
 namespace raybound {
 
 namespace {
@@ -11,20 +13,6 @@ namespace {
 constexpr double widest = 0.25;  // TUNED
 constexpr int fewest = 3;        // rays that a bundle pays for
 constexpr int most_asked = 16;   // TUNED: primitives that a bundle asks; if there are more, its parts ask fewer each
-
-Boxd range(const BatchVectors& values, int begin, int end) {
-    Boxd box;
-    for (int i = begin; i < end; ++i) box.extend(Vec3d(values[i]));
-    return box;
-}
-
-float farthest(const BatchHits& hits, int begin, int end) {
-    FloatPack most(0.0f);
-    for (int k = begin; k < end; ++k) most = maximum(most, hits[std::size_t(k)].t);
-    float result = 0;
-    for (int lane = 0; lane < pack_width; ++lane) result = maximum(result, most[lane]);
-    return result;
-}
 
 // Packs [begin, end) of a batch in one walk. False if it was given up: there are too many primitives for so many rays.
 // What has been found until then is right as far as it goes.
@@ -48,7 +36,7 @@ bool search_bundle(const Snapshot& scene, const RayBatch& rays, const RayBundle&
             consider(geometry, primitive, *pack, lanes, hits[std::size_t(k)]);
             counts.tests += std::uint64_t(std::popcount(lanes));
         }
-        until = farthest(hits, begin, end) * SweptBox::widening;
+        until = farthest(std::span(hits).subspan(std::size_t(begin), std::size_t(end - begin))) * SweptBox::widening;
     };
     ++counts.searches;
     scene.accelerator().bvh().visit(
@@ -81,9 +69,9 @@ RaySet search_packs(const Snapshot& scene, const RayBatch& rays, int begin, int 
     const int first = begin * pack_width, last = std::min(end * pack_width, rays.count);
     const bool worth = last - first >= fewest && (end - begin > 1 ? mode.batches : mode.packs);
     if (worth) {
-        const Boxd directions = range(rays.direction, first, last);
+        const Boxd directions = range(rays.direction, begin, end);
         if (max_component(directions.extent()) <= widest) {
-            const RayBundle bundle(range(rays.origin, first, last), directions);
+            const RayBundle bundle(range(rays.origin, begin, end), directions);
             if (search_bundle(scene, rays, bundle, begin, end, hits, counts)) return 0;
             (end - begin > 1 ? mode.batches : mode.packs) = false;
         }
@@ -110,7 +98,11 @@ bool is_blocked_alone(const Snapshot& scene, const ShadowOrigins& from, const Li
 class ShadowBundle {
   public:
     ShadowBundle(const Snapshot& scene, const ShadowOrigins& from, const Light& light, RaySet rays)
-        : scene_(scene), from_(from), light_(light), open_(rays), bundle_(light_bundle(patch(rays), light)) {}
+        : scene_(scene),
+          from_(from),
+          light_(light),
+          open_(rays),
+          bundle_(light_bundle(patch_around(from, rays), light)) {}
 
     // The rays found to be blocked; if it `gave_up`, others may be, too.
     RaySet search(std::uint32_t& last, SearchCounts& counts) {
@@ -133,12 +125,6 @@ class ShadowBundle {
     bool gave_up() const { return asked_ > most_asked; }
 
   private:
-    Patch patch(RaySet rays) const {
-        Boxd box;
-        while (rays != 0) box.extend(Vec3d(from_.origin[take_first(rays)]));
-        return Patch::around(box);
-    }
-
     void ask(std::uint32_t primitive, SearchCounts& counts) {
         if (!bundle_.may_meet(scene_.geometry().primitives[primitive].bounds)) return;
         ++asked_;
@@ -175,12 +161,39 @@ RaySet neighbours(const ShadowOrigins& from, RaySet rays, float reach) {
 
 }  // namespace
 
+float farthest(std::span<const NearestPack> hits) {
+    FloatPack most(0.0f);
+    for (const NearestPack& pack : hits) most = maximum(most, pack.t);
+    float result = 0;
+    for (int lane = 0; lane < pack_width; ++lane) result = maximum(result, most[lane]);
+    return result;
+}
+
+Patch patch_around(const ShadowOrigins& from, RaySet rays) {
+    Boxd box;
+    while (rays != 0) box.extend(Vec3d(from.origin[take_first(rays)]));
+    return Patch::around(box);
+}
+
+Boxd range(const BatchVectors& values, int begin, int end) {
+    Bounds<FloatPack> packs{values.pack(begin), values.pack(begin)};
+    for (int k = begin + 1; k < end; ++k) packs.extend(values.pack(k));
+    Boxd box;
+    for (int lane = 0; lane < pack_width; ++lane) {
+        box.extend(Vec3d(lane_of(packs.lower, lane)));
+        box.extend(Vec3d(lane_of(packs.upper, lane)));
+    }
+    return box;
+}
+
 RaySet closest_hits(const Snapshot& scene, const RayBatch& rays, BatchHits& hits, BatchMode& mode,
                     SearchCounts& counts) {
     for (int k = 0; k < rays.packs(); ++k) {
         hits[std::size_t(k)].t = FloatPack(infinity<float>);
         hits[std::size_t(k)].hit = hits[std::size_t(k)].entering = 0;
     }
+    for (int k = rays.count; k < rays.packs() * pack_width; ++k)  // out of use: nothing is looked for
+        hits[std::size_t(k / pack_width)].t.v[k % pack_width] = 0;
     return search_packs(scene, rays, 0, rays.packs(), hits, mode, counts);
 }
 

@@ -15,6 +15,12 @@ struct SearchCounts {
 
 using BatchHits = std::array<NearestPack, batch_packs>;
 
+// The farthest t; infinite while a ray has hit nothing.
+float farthest(std::span<const NearestPack> hits);
+
+// The least box around those of packs [begin, end).
+Boxd range(const BatchVectors& values, int begin, int end);
+
 // Whether whole batches, and packs, are worth a bundle: until one has to be given up.
 struct BatchMode {
     bool batches = true, packs = true;
@@ -29,6 +35,9 @@ struct ShadowOrigins {
     BatchVectors origin;
     alignas(64) std::uint32_t departed[batch_size];
 };
+
+// A patch that holds the origins of some of the rays.
+Patch patch_around(const ShadowOrigins& from, RaySet rays);
 
 // The rays from a pack's origins to a light.
 RayPack shadow_rays(const ShadowOrigins& from, const Light& light, int pack);

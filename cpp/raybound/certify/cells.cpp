@@ -45,6 +45,7 @@ std::uint32_t Cells::roots_of(const Snapshot& scene, std::uint32_t primitive) {
 
 void Cells::clear() {
     arena_.reset(0);
+    blocks_.reset(0);
     roots_ = std::vector<std::uint32_t>();
     bounds_ = std::vector<Box>();
     slots_.clear();
@@ -54,7 +55,8 @@ void Cells::clear() {
 }
 
 std::size_t Cells::bytes() const {
-    return arena_.bytes() + roots_.capacity() * sizeof(std::uint32_t) + bounds_.capacity() * sizeof(Box);
+    return arena_.bytes() + roots_.capacity() * sizeof(std::uint32_t) + bounds_.capacity() * sizeof(Box) +
+           blocks_.bytes();
 }
 
 // Tables of primitives count as memory, too: what is too little for them is enough for no cells.
@@ -64,7 +66,9 @@ void Cells::begin_anew(const Snapshot& scene) {
     most_primitives_ = primitives + primitives / 4 + 64;  // with room for objects that are added
     const std::size_t tables = most_primitives_ * (sizeof(std::uint32_t) + sizeof(Box));
     if (tables > memory_) return;
-    arena_.reset(memory_ - tables);
+    const std::size_t rest = memory_ - tables, blocks = keeps_blocks_ ? rest / 2 : 0;
+    arena_.reset(rest - blocks);
+    blocks_.reset(blocks);
     bounds_.reserve(most_primitives_);
     roots_.reserve(most_primitives_);
     roots_.assign(primitives, Arena::none);
@@ -75,6 +79,7 @@ void Cells::begin_frame(const Snapshot& scene) {
     if (content_ != scene.content()) {
         if (!content_ || !follow(scene)) begin_anew(scene);
         content_ = scene.content();
+        blocks_.follow_lights(scene.lights());
         if (arena_.limit() > 0) {
             bounds_.clear();
             for (const Primitive& primitive : scene.geometry().primitives) bounds_.push_back(primitive.bounds);

@@ -11,6 +11,7 @@
 #include "raybound/certify/arena.h"
 #include "raybound/certify/bundle.h"
 #include "raybound/certify/chart.h"
+#include "raybound/certify/image_blocks.h"
 #include "raybound/trace/search.h"
 
 namespace raybound {
@@ -45,14 +46,18 @@ struct FaceKey {
 
 class Cells {
   public:
-    explicit Cells(std::size_t memory) : memory_(memory) {}
+    // At most so many bytes; half of them for `blocks()`, if what they have met is kept, too.
+    explicit Cells(std::size_t memory, bool keeps_blocks = true) : memory_(memory), keeps_blocks_(keeps_blocks) {}
 
     // Follows the scene to a snapshot, and makes room. Not while anybody asks.
     void begin_frame(const Snapshot& scene);
     void clear();
 
-    std::size_t bytes() const;
+    std::size_t bytes() const;  // of cells and blocks
     std::size_t count() const { return cells_; }
+
+    ImageBlocks& blocks() { return blocks_; }
+    const ImageBlocks& blocks() const { return blocks_; }
 
     // One cell for pictures: where it is, and its verdicts by light.
     struct View {
@@ -74,7 +79,6 @@ class Cells {
         std::int32_t id = -1;
         LightPointer light;
     };
-    struct Change;
 
     static constexpr std::uint32_t cell_words_without_lights = 2;  // children; siblings and itself, whether used
     static constexpr std::uint32_t ways_shift = 1;
@@ -95,8 +99,8 @@ class Cells {
     bool follow_objects(const Snapshot& scene);
     void forget(std::uint32_t first, const std::vector<bool>& stale);
     void update_cell(const Snapshot& scene, const Chart& chart, const ChartRectangle& rectangle, std::uint32_t cell,
-                     const Change& change, std::vector<bool> touched);
-    void update_entry(const Snapshot& scene, const Bundle& bundle, std::uint32_t word, const Change& change,
+                     const SceneChange& change, std::vector<bool> touched);
+    void update_entry(const Snapshot& scene, const Bundle& bundle, std::uint32_t word, const SceneChange& change,
                       bool touched);
     void make_room(const Snapshot& scene);
     bool sweep(std::uint32_t word);
@@ -111,6 +115,8 @@ class Cells {
     void begin_anew(const Snapshot& scene);
 
     std::size_t memory_, most_primitives_ = 0;
+    bool keeps_blocks_;
+    ImageBlocks blocks_;
     Arena arena_;
     std::vector<std::uint32_t> roots_;  // by primitive: a record of root cells by face, piece and side
     std::vector<Box> bounds_;           // of primitives

@@ -8,33 +8,6 @@
 
 namespace raybound {
 
-namespace {
-
-// Lights are one to their shadows if they are in one place, or shine in one direction.
-bool casts_same_shadows(const Light& a, const Light& b) {
-    if ((a.kind == LightKind::directional) != (b.kind == LightKind::directional)) return false;
-    return a.kind == LightKind::directional ? a.direction == b.direction : a.position == b.position;
-}
-
-}  // namespace
-
-// An edit of geometry, as the cells that stay see it.
-struct Cells::Change {
-    std::vector<std::uint32_t> new_index;  // of primitives by their index before; none: gone, or moved
-    std::vector<Box> regions;              // before and after
-    std::vector<std::uint32_t> arrived;    // primitives, by their new index: added or moved
-    bool renumbered = false;
-
-    static constexpr std::uint32_t none = 0xffffffffu;
-    bool touches([[maybe_unused]] const Bundle& bundle) const {
-#ifdef RAYBOUND_SABOTAGE_INVALIDATION
-        return false;  // the sabotage build: what arrives is not asked about
-#else
-        return std::ranges::any_of(regions, [&](const Box& box) { return bundle.may_meet(box); });
-#endif
-    }
-};
-
 void Cells::follow_lights(const Snapshot& scene) {
     const auto& lights = scene.lights();
     if (slots_.empty()) slots_.assign(lights.size() + 1, {});  // one to spare
@@ -84,31 +57,8 @@ bool Cells::follow(const Snapshot& scene) {
 // False if too much has changed: then it is cheaper to begin anew.
 bool Cells::follow_objects(const Snapshot& scene) {
     const auto &before = content_->objects, &now = scene.objects();
-    const auto& primitives = scene.geometry().primitives;
-    Change change;
-    std::size_t i = 0, j = 0;
-    while (i < before.size() || j < now.size()) {
-        const bool same = i < before.size() && j < now.size() && before[i].id == now[j].id;
-        const bool gone = !same && (j == now.size() || (i < before.size() && before[i].id < now[j].id));
-        if (same && now[j].is_placed_as(before[i])) {
-            change.new_index.push_back(std::uint32_t(j));
-            if (i != j) change.renumbered = true;
-            ++i, ++j;
-            continue;
-        }
-        if (same || gone) {
-            change.regions.push_back(bounds_[i]);
-            change.new_index.push_back(Change::none);
-            change.renumbered = change.renumbered || gone;
-            ++i;
-        }
-        if (!gone) {
-            change.regions.push_back(primitives[j].bounds);
-            change.arrived.push_back(std::uint32_t(j));
-            ++j;
-        }
-    }
-    if (change.regions.empty() && !change.renumbered) return true;
+    SceneChange change(before, bounds_, scene);
+    if (change.is_empty()) return true;
     constexpr std::size_t most = 64;
     if (change.regions.size() > most) return false;
 
@@ -118,7 +68,7 @@ bool Cells::follow_objects(const Snapshot& scene) {
     roots.assign(now.size(), Arena::none);
     for (std::size_t k = 0; k < before.size(); ++k) {
         if (roots_[k] == Arena::none) continue;
-        if (change.new_index[k] != Change::none)
+        if (change.new_index[k] != SceneChange::none)
             roots[change.new_index[k]] = roots_[k];
         else
             release_tree(roots_[k], std::uint32_t(before[k].shape->face_count()) * roots_of_face);
@@ -129,18 +79,20 @@ bool Cells::follow_objects(const Snapshot& scene) {
         const std::vector<bool> all(scene.lights().size(), true);
         update_cell(scene, *chart, chart->whole(), *arena_.at(root), change, all);
     });
+    blocks_.follow(std::move(change));
     return true;
 }
 
 void Cells::update_cell(const Snapshot& scene, const Chart& chart, const ChartRectangle& rectangle, std::uint32_t cell,
-                        const Change& change, std::vector<bool> touched) {
+                        const SceneChange& change, std::vector<bool> touched) {
     const ChartCell here = chart.cell(rectangle);
     const Patch patch = chart.patch(here);
     bool any = change.renumbered;
     for (std::size_t light = 0; light < touched.size(); ++light) {
         if (!touched[light] && !change.renumbered) continue;
         const Bundle bundle = light_bundle(patch, *scene.lights()[light].light);
-        touched[light] = touched[light] && change.touches(bundle);
+        touched[light] = touched[light] &&
+                         SceneChange::any_met(change.regions, [&](const Box& box) { return bundle.may_meet(box); });
         any = any || touched[light];
         const std::uint32_t word = cell + cell_words_without_lights + slot_of_light_[light];
         if (touched[light] || change.renumbered) update_entry(scene, bundle, word, change, touched[light]);
@@ -158,14 +110,14 @@ void Cells::update_cell(const Snapshot& scene, const Chart& chart, const ChartRe
 }
 
 // A verdict after an edit: what was not touched stays, what has left is taken out, what has arrived is asked.
-void Cells::update_entry(const Snapshot& scene, const Bundle& bundle, std::uint32_t word, const Change& change,
+void Cells::update_entry(const Snapshot& scene, const Bundle& bundle, std::uint32_t word, const SceneChange& change,
                          bool touched) {
     const std::uint32_t entry = *arena_.at(word);
     if (entry == 0 || entries::is_too_long(entry)) return;
     CellVerdict verdict = entries::verdict(entry);
     std::vector<std::uint32_t> list;
     for (const std::uint32_t primitive : entries::primitives(arena_, entry))
-        if (const std::uint32_t now = change.new_index[primitive]; now != Change::none) list.push_back(now);
+        if (const std::uint32_t now = change.new_index[primitive]; now != SceneChange::none) list.push_back(now);
     if (verdict == CellVerdict::blocked && list.empty()) return release_entry(word);
     for (const std::uint32_t primitive : change.arrived) {
         if (!touched || verdict == CellVerdict::blocked) break;

@@ -38,21 +38,34 @@ struct ExactTracer::Level {
     ShadowOrigins outside;
     BatchFloats t, way;  // from the ray's origin, and from the eye
     RaySet entering = 0, hit = 0;
+    float until = 0;  // no ray has looked for hits beyond
 
     struct LightValue {
-        BatchVectors value;  // what it adds where it is not blocked
-        RaySet rays = 0;     // for which it may
+        BatchVectors value;             // what it adds where it is not blocked
+        RaySet rays = 0;                // for which it may
+        RaySet asked = 0, blocked = 0;  // rays of which it is known whether they see it, and those that do not
     };
     std::vector<LightValue> lights;
 
     // The rays that are sent on, reflected and refracted ones apart; by their own numbers.
     struct Spawned {
+        BatchVectors weight_of_hit, direction_of_hit;
         RayBatch rays;
         std::uint8_t parent[batch_size];
         BatchVectors weight;
     };
     Spawned reflected, refracted;
     BatchRadiance seen;
+
+    // What is kept of these rays, if it holds, and where what is kept next is written.
+    const std::uint64_t* kept = nullptr;
+    bool same_ior = false;  // as when it was written
+    std::size_t written = 0;
+
+    void add(const Face& face) {
+        for (RaySet rest = face.rays; rest != 0;) face_of[take_first(rest)] = std::uint8_t(faces.size());
+        faces.push_back(face);
+    }
 
     // Calls visit(material, rays) for the hits of each material together.
     template <class Visit>

@@ -16,8 +16,17 @@ Searched reason(NoCell why) {
 
 // Leaves in the light's `rays` those that see it.
 void ExactTracer::settle_shadows(Level& level, std::size_t light, BatchRadiance& out) {
-    const RaySet all = level.lights[light].rays;
+    Level::LightValue& value = level.lights[light];
+    const RaySet all = value.rays & ~value.asked;
+    value.rays &= ~(value.asked & value.blocked);
     if (all == 0) return;
+    search_shadows(level, light, all, out);
+    value.asked |= all;
+    value.blocked = (value.blocked & ~all) | (all & ~value.rays);
+}
+
+// From the lists of cells; what they do not know is searched for.
+void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all, BatchRadiance& out) {
     RaySet rest = 0;
     for (Face& face : level.faces) {
         const RaySet open = all & face.rays;

@@ -44,30 +44,36 @@ void ExactTracer::begin_tile() {
     std::ranges::fill(last_blockers_, Departure::none);
 }
 
-void ExactTracer::trace_eye(const RayBatch& rays, BatchRadiance& out) { trace(rays, 1, &RayCounts::eye, out); }
+void ExactTracer::trace_eye(const RayBatch& rays, const ImageBlocks::Kept& kept, BatchRadiance& out) {
+    changes_ = kept.changes;
+    written_.clear();
+    trace(rays, 1, &RayCounts::eye, kept.words, out);
+}
 
-void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, BatchRadiance& out) {
+void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, const std::uint64_t* kept,
+                        BatchRadiance& out) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return;
     Level& level = level_at(depth);
-    SearchCounts counts;
-    BatchMode one_off;
-    const RaySet alone = closest_hits(scene_, rays, level.hits, depth == 1 ? eye_mode_ : one_off, counts);
-    counts_.rays.*kind += counts.searches;
-    counts_.tests += counts.tests;
-    for (int i = 0; i < rays.count; ++i) out.searched[i] = alone >> i & 1 ? Searched::eye : Searched::no;
-    find_faces(rays, level);
+    for (Level::LightValue& light : level.lights) light.rays = light.asked = light.blocked = 0;
+    level.pieces.clear();
+    level.kept = kept && recall(rays, kept, level) ? kept : nullptr;
+    if (level.kept)
+        std::fill_n(out.searched, rays.count, Searched::no);
+    else
+        search(rays, depth, kind, level, out);
     for (RaySet missed = rays.all() & ~level.hit; missed != 0;) {
         const int i = take_first(missed);
         out.t[i] = infinity<float>;
         out.object[i] = -1;
         out.radiance.set(i, scene_.background());
     }
-    if (level.hit == 0) return;
     for (Face& face : level.faces) meet_face(rays, level, face);
 
-    for (Level::LightValue& light : level.lights) light.rays = 0;
     level.visit_materials([&](const Material& material, RaySet hits) { weigh_lights(level, material, hits); });
+    if (level.kept) recall_lights(level);
     for (std::size_t light = 0; light < level.lights.size(); ++light) settle_shadows(level, light, out);
+    write(level);
+    if (level.hit == 0) return;
 
     for (int k = 0; k < rays.packs(); ++k) {
         Vec3<FloatPack> sum = saturate(Vec3<FloatPack>(scene_.ambient()) * level.diffuse.pack(k));
@@ -88,13 +94,23 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
     }
 }
 
+void ExactTracer::search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level,
+                         BatchRadiance& out) {
+    SearchCounts counts;
+    BatchMode one_off;
+    const RaySet alone = closest_hits(scene_, rays, level.hits, depth == 1 ? eye_mode_ : one_off, counts);
+    counts_.rays.*kind += counts.searches;
+    counts_.tests += counts.tests;
+    for (int i = 0; i < rays.count; ++i) out.searched[i] = alone >> i & 1 ? Searched::eye : Searched::no;
+    find_faces(rays, level);
+}
+
 void ExactTracer::find_faces(const RayBatch& rays, Level& level) {
-    const Geometry& geometry = scene_.geometry();
     level.faces.clear();
-    level.pieces.clear();
     level.hit = 0;
     for (int k = 0; k < rays.packs(); ++k) level.hit |= set_of_pack(level.hits[std::size_t(k)].hit, k);
     level.hit &= rays.all();
+    level.until = farthest(std::span(level.hits).first(std::size_t(rays.packs())));
     for (RaySet open = level.hit; open != 0;) {
         const int first = std::countr_zero(open);
         const NearestPack& pack = level.hits[std::size_t(first / pack_width)];
@@ -107,15 +123,20 @@ void ExactTracer::find_faces(const RayBatch& rays, Level& level) {
         face.entering = pack.entering >> at & 1;
         for (int k = first / pack_width; k < rays.packs(); ++k)
             face.rays |= set_of_pack(lanes_of_pack(open, k) & same_face(level.hits[std::size_t(k)], face), k);
-        for (RaySet rest = face.rays; rest != 0;) level.face_of[take_first(rest)] = std::uint8_t(level.faces.size());
         open &= ~face.rays;
-        const ObjectRecord& object = scene_.objects()[geometry.primitives[face.primitive].object];
-        face.object = object.id;
-        face.material = object.material.get();
-        face.outer = departure(geometry, face.primitive, face.entering).primitive;
-        face.inner = departure(geometry, face.primitive, !face.entering).primitive;
-        level.faces.push_back(face);
+        complete(face);
+        level.add(face);
     }
+}
+
+// What the scene says of a face.
+void ExactTracer::complete(Face& face) const {
+    const Geometry& geometry = scene_.geometry();
+    const ObjectRecord& object = scene_.objects()[geometry.primitives[face.primitive].object];
+    face.object = object.id;
+    face.material = object.material.get();
+    face.outer = departure(geometry, face.primitive, face.entering).primitive;
+    face.inner = departure(geometry, face.primitive, !face.entering).primitive;
 }
 
 void ExactTracer::meet_face(const RayBatch& rays, Level& level, Face& face) {
@@ -170,45 +191,56 @@ void ExactTracer::weigh_lights(Level& level, const Material& material, RaySet ra
     }
 }
 
-// The rays that surfaces of one material send on.
+// The rays that surfaces of one material may send on.
 void ExactTracer::spawn(Level& level, const Material& material, RaySet hits) {
     const Order order(hits);
-    const auto add = [&](Level::Spawned& to, int parent, const Vec3f& weight, const Vec3f& origin,
-                         const Vec3f& direction, std::uint32_t departed) {
-        if (!(max_component(weight) > 0)) return;
-        const int c = to.rays.count;
-        to.parent[c] = std::uint8_t(parent);
-        to.weight.set(c, weight);
-        to.rays.add(origin, make_ray(origin, direction).direction, level.way[parent], departed);
-    };
     for (int k = 0; k < order.packs(); ++k) {
         const std::uint8_t* index = order.pack(k);
-        const Vec3<FloatPack> direction = -gather(level.view, index);
-        const SecondaryRays<FloatPack> next = secondary_rays(material, direction, gather(level.shading, index),
-                                                             lanes_of<float>(gather(level.entering, index)));
-        for (int lane = 0; lane < order.lanes(k); ++lane) {
-            const int i = index[lane];
-            const Face& face = level.faces[level.face_of[i]];
-            add(level.reflected, i, lane_of(next.reflect, lane), level.outside.origin[i], lane_of(next.reflected, lane),
-                face.outer);
-            if (material.transmit == Vec3f{}) continue;
-            const Vec3f inside = offset_origin(level.point[i], level.point_error[i], -level.side[i]);
-            add(level.refracted, i, lane_of(next.transmit, lane), inside, lane_of(next.refracted, lane), face.inner);
+        const SecondaryRays<FloatPack> next =
+            secondary_rays(material, -gather(level.view, index), gather(level.shading, index),
+                           lanes_of<float>(gather(level.entering, index)));
+        scatter(next.reflect, index, order.lanes(k), level.reflected.weight_of_hit);
+        scatter(next.reflected, index, order.lanes(k), level.reflected.direction_of_hit);
+        if (material.transmit == Vec3f{}) continue;
+        scatter(next.transmit, index, order.lanes(k), level.refracted.weight_of_hit);
+        scatter(next.refracted, index, order.lanes(k), level.refracted.direction_of_hit);
+    }
+}
+
+// Those that have a weight, face by face: colours change nothing in their order.
+void ExactTracer::collect(Level& level, bool reflected) {
+    Level::Spawned& next = reflected ? level.reflected : level.refracted;
+    next.rays.count = 0;
+    for (const Face& face : level.faces) {
+        const Material& material = *face.material;
+        if (material.transmit == Vec3f{} && (!reflected || material.reflect == Vec3f{})) continue;
+        for (RaySet rest = face.rays; rest != 0;) {
+            const int i = take_first(rest);
+            const Vec3f weight = next.weight_of_hit[i];
+            if (!(max_component(weight) > 0)) continue;
+            next.parent[next.rays.count] = std::uint8_t(i);
+            next.weight.set(next.rays.count, weight);
+            const Vec3f origin = reflected ? level.outside.origin[i]
+                                           : offset_origin(level.point[i], level.point_error[i], -level.side[i]);
+            next.rays.add(origin, make_ray(origin, next.direction_of_hit[i]).direction, level.way[i],
+                          reflected ? face.outer : face.inner);
         }
     }
 }
 
 // local + reflect L(R) + transmit L(T), in this order.
 void ExactTracer::add_secondary(Level& level, int depth, BatchRadiance& out) {
-    level.reflected.rays.count = level.refracted.rays.count = 0;
     level.visit_materials([&](const Material& material, RaySet hits) {
         if (material.reflect != Vec3f{} || material.transmit != Vec3f{}) spawn(level, material, hits);
     });
     for (const bool reflected : {true, false}) {
         Level::Spawned& next = reflected ? level.reflected : level.refracted;
+        collect(level, reflected);
         if (next.rays.count == 0) continue;
         next.rays.pad();
-        trace(next.rays, depth + 1, reflected ? &RayCounts::reflected : &RayCounts::refracted, level.seen);
+        write_tree(level, reflected);
+        trace(next.rays, depth + 1, reflected ? &RayCounts::reflected : &RayCounts::refracted,
+              kept_tree(level, reflected), level.seen);
         for (int c = 0; c < next.rays.count; ++c) {
             const int i = next.parent[c];
             level.sum.set(i, saturate(level.sum[i] + next.weight[c] * level.seen.radiance[c]));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raybound/certify/batch_search.h"
+#include "raybound/certify/block_record.h"
 #include "raybound/certify/face_cells.h"
 #include "raybound/trace/local_light.h"
 #include "raybound/trace/tracer.h"
@@ -38,8 +39,11 @@ class ExactTracer {
     // What has been learnt about rays is forgotten: no tile's paths and counts depend on what was done before.
     void begin_tile();
 
-    // Traces the eye rays of a batch.
-    void trace_eye(const RayBatch& rays, BatchRadiance& out);
+    // Traces the eye rays of a batch; `kept` is what the same rays met before.
+    void trace_eye(const RayBatch& rays, const ImageBlocks::Kept& kept, BatchRadiance& out);
+
+    // What they have met now, if blocks are to be kept.
+    std::span<const std::uint64_t> written() const { return written_; }
 
     const ExactCounts& counts() const { return counts_; }
 
@@ -49,17 +53,30 @@ class ExactTracer {
     struct Level;
 
     Level& level_at(int depth);
-    void trace(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, BatchRadiance& out);
+    void trace(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, const std::uint64_t* kept,
+               BatchRadiance& out);
+    void search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level, BatchRadiance& out);
     void find_faces(const RayBatch& rays, Level& level);
     void meet_face(const RayBatch& rays, Level& level, Face& face);
     void meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index, int count);
     void weigh_lights(Level& level, const Material& material, RaySet rays);
     void settle_shadows(Level& level, std::size_t light, BatchRadiance& out);
+    void search_shadows(Level& level, std::size_t light, RaySet all, BatchRadiance& out);
     RaySet ask_cells(Level& level, Face& face, std::size_t light, RaySet open, BatchRadiance& out);
     Piece& piece_at(Level& level, Face& face, int index);
     void test_candidates(Level& level, std::size_t light, RaySet rays, const CellAnswer& answer);
     void add_secondary(Level& level, int depth, BatchRadiance& out);
     void spawn(Level& level, const Material& material, RaySet hits);
+    void collect(Level& level, bool reflected);
+    void complete(Face& face) const;
+
+    // Records of blocks (exact_records.cpp).
+    bool recall(const RayBatch& rays, const std::uint64_t* kept, Level& level);
+    bool recall_face(const record::Face& from, Face& to) const;
+    void recall_lights(Level& level);
+    void write(Level& level);
+    const std::uint64_t* kept_tree(const Level& level, bool reflected) const;
+    void write_tree(Level& level, bool reflected);
 
     const Snapshot& scene_;
     Cells& cells_;
@@ -68,6 +85,8 @@ class ExactTracer {
     BatchMode eye_mode_;
     std::vector<std::unique_ptr<Level>> levels_;  // of the ray tree, made when they are first reached
     std::vector<std::uint32_t> last_blockers_;    // by light
+    std::span<const SceneChange> changes_;        // since what is kept was written
+    record::Words written_;
 };
 
 }  // namespace raybound

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "raybound/geometry/matrix.h"
 
@@ -18,6 +19,12 @@ class Camera {
     float fov() const { return fov_; }  // vertical, degrees
     int width() const { return width_; }
     int height() const { return height_; }
+
+    // What all rays follow from: cameras of the same numbers have the same rays.
+    std::array<float, 12> numbers() const {
+        return {eye_.x, eye_.y, eye_.z, target_.x, target_.y,     target_.z,
+                up_.x,  up_.y,  up_.z,  fov_,      float(width_), float(height_)};
+    }
 
     // The unit direction of the ray through the centre of pixel (x, y), as a function of float operations alone:
     // normalize((forward + right * sx) + upward * sy).

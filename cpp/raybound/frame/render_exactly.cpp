@@ -8,7 +8,7 @@ namespace raybound {
 namespace {
 
 constexpr int block_size = 8;
-static_assert(block_size * block_size == batch_size);
+static_assert(block_size * block_size == batch_size && tile_size % block_size == 0);
 
 // What was searched for, as pixels tell it.
 Reason reason_of(Searched searched) {
@@ -65,8 +65,14 @@ void add_pack(const Camera& camera, const FrameBuffers& buffers, const Tile& blo
     }
 }
 
-void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffers, const Tile& block,
-                  const std::atomic<bool>& cancelled, BlockRays& work) {
+// Blocks row by row over the whole picture.
+int columns_of(const Camera& camera) { return (camera.width() + block_size - 1) / block_size; }
+int number_of(const Camera& camera, const Tile& block) {
+    return block.y0 / block_size * columns_of(camera) + block.x0 / block_size;
+}
+
+void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffers, ImageBlocks& blocks,
+                  const Tile& block, const std::atomic<bool>& cancelled, BlockRays& work) {
     RayBatch& rays = work.rays;
     rays.count = 0;
     for (int y = block.y0; y < block.y1; y += pack_rows)
@@ -74,8 +80,11 @@ void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffe
     if (rays.count == 0) return;
     rays.pad();
     const BatchRadiance& seen = work.seen;
-    tracer.trace_eye(rays, work.seen);
+    const bool whole = rays.count == (block.x1 - block.x0) * (block.y1 - block.y0);
+    const int number = number_of(camera, block);
+    tracer.trace_eye(rays, whole ? blocks.kept(number) : ImageBlocks::Kept{}, work.seen);
     if (cancelled) return;
+    if (whole) blocks.keep(number, tracer.written());
     for (int k = 0; k < rays.count; ++k) {
         const std::size_t at = work.pixel[std::size_t(k)];
         buffers.image[at] = seen.radiance[k];
@@ -98,6 +107,8 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
     for (int k = 0; k < threads; ++k) tracers.emplace_back(scene, cells, exact);
     std::vector<BlockRays> work(static_cast<std::size_t>(threads));
     const Tiling tiling(buffers, 1);
+    const int rows = (camera.height() + block_size - 1) / block_size;
+    cells.blocks().begin_view(camera.numbers(), columns_of(camera) * rows);
     const Stopwatch time;
     RenderStatistics statistics;
     statistics.threads = run_work(
@@ -108,7 +119,7 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
             for (int y = tile.y0; y < tile.y1; y += block_size)
                 for (int x = tile.x0; x < tile.x1; x += block_size) {
                     const Tile block{x, y, std::min(x + block_size, tile.x1), std::min(y + block_size, tile.y1)};
-                    render_block(tracers[std::size_t(worker)], camera, buffers, block, cancelled,
+                    render_block(tracers[std::size_t(worker)], camera, buffers, cells.blocks(), block, cancelled,
                                  work[std::size_t(worker)]);
                     if (cancelled) return;
                 }

@@ -1,0 +1,186 @@
+"""What image blocks have met is kept while the camera stays: after edits only what they touch is asked again, and every
+frame still has the base image's bytes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from tests.support.support_exact import EDITS, Tally, check_scene, compare
+
+import raybound as rb
+
+
+@pytest.mark.parametrize("first", range(0, 120, 20))
+def test_edits_under_a_still_camera(first: int) -> None:
+    tally = Tally()
+    for seed in range(first, first + 20):
+        check_scene(seed, tally, cameras=7, still=True)
+    assert set(tally.edits) == set(EDITS)
+    assert tally.frames == 160
+    assert tally.share > 0.6
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("first", range(0, 1000, 50))
+def test_a_thousand_scenes_under_a_still_camera(first: int) -> None:
+    tally = Tally()
+    for seed in range(first, first + 50):
+        check_scene(seed, tally, cameras=7, pixels=96, still=True)
+    assert tally.frames == 400
+    assert tally.share > 0.6
+
+
+def museum(width: int = 240) -> tuple[rb.Scene, rb.Camera]:
+    scene = rb.scenes.museum()
+    assert scene.camera is not None
+    return scene, scene.camera.replace(width=width, height=width * 3 // 4)
+
+
+@contextmanager
+def both(scene: rb.Scene, **options: object) -> Iterator[tuple[rb.Renderer, rb.Renderer]]:
+    exact, base = rb.Renderer(scene, **options), rb.Renderer(scene, method="base")  # type: ignore[arg-type]
+    with exact, base:
+        yield exact, base
+
+
+def searches(frame: rb.Frame) -> int:
+    return sum(frame.stats["rays"].values())
+
+
+def named(scene: rb.Scene, name: str) -> rb.Object:
+    return next(item for item in scene.objects if item.name == name)
+
+
+def test_nothing_is_asked_again_where_nothing_has_changed() -> None:
+    scene, camera = museum()
+    with both(scene) as (exact, base):
+        first = compare(exact, base, camera, Tally(), "first")
+        assert searches(first) > 0
+        again = compare(exact, base, camera, Tally(), "again")
+        assert searches(again) == 0 and again.stats["cells"]["made"] == 0
+        assert np.isin(again.path, (rb.Path.EXACT, rb.Path.BACKGROUND)).all()
+        assert (again.reason == 0).all()
+
+
+def test_colours_and_intensities_ask_nothing() -> None:
+    scene, camera = museum()
+    with both(scene) as (exact, base):
+        exact.render(camera)
+        for item in scene.objects[::40]:
+            item.material = item.material.replace(diffuse=(0.2, 0.5, 0.3))
+        for lamp in scene.lights:
+            if isinstance(lamp.light, rb.PointLight):
+                lamp.light = lamp.light.replace(intensity=(3.0, 2.0, 1.0))
+        frame = compare(exact, base, camera, Tally(), "colours")
+        assert searches(frame) == 0 and frame.stats["cells"]["made"] == 0
+
+
+def test_a_move_asks_a_small_part_again() -> None:
+    scene, camera = museum()
+    with both(scene) as (exact, base):
+        first = exact.render(camera)
+        item = named(scene, "sculpture-top")
+        for _ in range(3):
+            item.move(rb.Transform.translate(0, 0, 0.1))
+            frame = compare(exact, base, camera, Tally(), "moved")
+            assert 0 < searches(frame) < 0.4 * searches(first)
+
+
+def _mirrors(scene: rb.Scene) -> None:
+    scene.objects[0].material = rb.Material((0.3, 0.3, 0.3), reflect=0.6)
+
+
+def _glass(scene: rb.Scene) -> None:
+    scene.objects[1].material = rb.Material((0.1, 0.1, 0.1), transmit=0.7, ior=1.3)
+
+
+def _denser_glass(scene: rb.Scene) -> None:
+    scene.objects[1].material = rb.Material((0.1, 0.1, 0.1), transmit=0.7, ior=1.8)
+
+
+def _no_mirrors(scene: rb.Scene) -> None:
+    scene.objects[0].material = rb.Material((0.3, 0.3, 0.3))
+
+
+def _wider_spot(scene: rb.Scene) -> None:
+    scene.lights[0].light = rb.SpotLight((2, -2, 4), (-2, 2, -4), cutoff=50, intensity=(20, 20, 20))
+
+
+def _spot_elsewhere(scene: rb.Scene) -> None:
+    scene.lights[0].light = rb.SpotLight((-2, -2, 4), (2, 2, -4), cutoff=50, intensity=(20, 20, 20))
+
+
+def _another_light(scene: rb.Scene) -> None:
+    scene.lights[0].remove()
+    scene.add_light(rb.DirectionalLight((1, 1, -3), radiance=(0.6, 0.6, 0.5)))
+
+
+def _one_less(scene: rb.Scene) -> None:
+    scene.objects[0].remove()
+
+
+CHANGES = (
+    _mirrors,
+    _glass,
+    _denser_glass,
+    _no_mirrors,
+    _wider_spot,
+    _spot_elsewhere,
+    _another_light,
+    _one_less,
+)
+
+
+def glasshouse() -> rb.Scene:
+    """Spheres, a prism and CSG in a corner: rays go on in all ways, and primitives have leaves of several numbers."""
+    scene = rb.Scene(ambient=0.1, background=(0.2, 0.3, 0.4))
+    scene.add(rb.Sphere((-1, 0, 0.6), 0.6), rb.Material((0.5, 0.2, 0.2), reflect=0.4))
+    scene.add(rb.Sphere((0.4, -0.6, 0.5), 0.5), rb.Material((0.1, 0.1, 0.1), transmit=0.8, ior=1.5))
+    scene.add(rb.Box((0.8, 0.2, 0), (1.6, 1, 0.7)) | rb.Sphere((1.2, 0.6, 0.8), 0.45), rb.Material((0.2, 0.5, 0.2)))
+    scene.add(rb.Box((-4, -4, -0.1), (4, 4, 0)), rb.Material((0.6, 0.6, 0.6), reflect=0.2))
+    scene.add_light(rb.SpotLight((2, -2, 4), (-2, 2, -4), cutoff=30, intensity=(20, 20, 20)))
+    scene.add_light(rb.PointLight((-2, -2, 3), intensity=(4, 4, 4)))
+    scene.camera = rb.Camera((0.5, -4, 2), (0, 0, 0.4), width=120, height=90)
+    return scene
+
+
+@pytest.mark.parametrize("options", [{}, {"threads": 2}, {"memory": 300_000}, {"editable": False}, {"max_depth": 3}])
+def test_what_rays_are_sent_on_is_looked_at(options: dict[str, int]) -> None:
+    scene = glasshouse()
+    assert scene.camera is not None
+    exact = rb.Renderer(scene, **options)  # type: ignore[arg-type]
+    base = rb.Renderer(scene, method="base", max_depth=options.get("max_depth", 5))
+    with exact, base:
+        compare(exact, base, scene.camera, Tally(), "first")
+        change: Callable[[rb.Scene], None]
+        for change in CHANGES:
+            before = exact.render(scene.camera).image.copy()
+            change(scene)
+            after = compare(exact, base, scene.camera, Tally(), change.__name__)
+            assert not np.array_equal(before, after.image), change.__name__  # it was worth asking
+
+
+def test_without_blocks_everything_is_asked_again() -> None:
+    scene, camera = museum()
+    with both(scene, editable=False) as (exact, base):
+        first = compare(exact, base, camera, Tally(), "first")
+        again = compare(exact, base, camera, Tally(), "again")
+        assert searches(again) == searches(first)
+        kept = exact.memory_used
+    with both(scene) as (exact, _):
+        exact.render(camera)
+        assert exact.memory_used > kept
+
+
+def test_paths_after_edits_do_not_depend_on_threads() -> None:
+    frames = []
+    for threads in (1, 2, 3):
+        scene, camera = museum(160)
+        with rb.Renderer(scene, threads=threads) as renderer:
+            renderer.render(camera)
+            named(scene, "sculpture-top").move(rb.Transform.translate(0, 0, 0.3))
+            frames.append(renderer.render(camera))
+    assert all(frame == frames[0] for frame in frames[1:])
