@@ -62,11 +62,13 @@ def test_what_frames_did(ball: rb.Scene) -> None:
     assert frames["first"]["made"] > 20
     assert frames["again"]["made"] == frames["colour"]["made"] == frames["light"]["made"] == 0
     assert frames["move"]["made"] > 0
+    for kind, frame in frames.items():
+        asked = kind not in ("again", "colour", "light")  # where nothing has changed for rays nothing is asked
+        assert (sum(frame["searches"].values()) > 0) == (frame["tests"] > 0) == asked, kind
     for frame in frames.values():
         assert frame["equal"]
         assert 0.5 < frame["certified"] <= 1
-        assert 0 < sum(frame["searches"].values()) < 0.5 * frame["base_searches"]
-        assert frame["tests"] > 0
+        assert sum(frame["searches"].values()) < 0.5 * frame["base_searches"]
         assert frame["bytes"] > 1000
     assert frames["first"]["base_searches"] > 1.5
     assert set(ball.to_dict()) == set(ball_scene().to_dict())

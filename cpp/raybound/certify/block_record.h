@@ -16,7 +16,7 @@ struct Batch {
     std::uint32_t reflected, refracted;  // where these trees begin, in words from here; 0: nothing was sent on
     std::uint16_t faces, lights;
     float until;  // no ray looks for hits beyond
-    RaySet hit;
+    RaySet hit, alone;
 };
 
 // Leaves are counted from the primitive's first one: others may come and go before it.
@@ -28,8 +28,9 @@ struct Face {
     RaySet rays;
 };
 
+// Then sets of rays for which cells did not do, by why: those of `reasons`.
 struct Light {
-    std::uint32_t place, unused;
+    std::uint32_t place, reasons;
     RaySet asked, blocked;
 };
 

@@ -27,6 +27,7 @@ struct CellCounts {
 
 enum class CellVerdict : std::uint8_t { none, lit, blocked, list };
 enum class NoCell : std::uint8_t { unsupported, cost, memory, crowded };
+inline constexpr std::size_t no_cell_reasons = 4;
 
 struct CellAnswer {
     CellVerdict verdict = CellVerdict::none;
@@ -42,6 +43,8 @@ struct FaceKey {
     int piece = 0;
     bool outward = true;
     std::uint32_t departed = Departure::none;  // the primitive that the rays have left, or none
+
+    bool operator==(const FaceKey&) const = default;
 };
 
 class Cells {

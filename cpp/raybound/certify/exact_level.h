@@ -19,31 +19,40 @@ struct ExactTracer::Face {
     RaySet rays = 0;
 };
 
-// The cells of a piece of a face that is seen, and where in its chart the rays to lights begin.
+// The cells of a piece of a face that was seen in this tile, with what they have told of lights; and where in its chart
+// the rays of the batch begin.
 struct ExactTracer::Piece {
-    const Face* face;
-    int number;
     FaceCells cells;
+    std::uint64_t tile, batch = 0;
+    std::vector<CellAnswer> answers;  // by light: the last ones
     std::array<Vec3<DoublePack>, batch_packs> points{};
+
+    Vec3d point(int index) const { return lane_of(points[std::size_t(index / pack_width)], index % pack_width); }
 };
 
 // What one depth of the ray tree knows of its batch, ray by ray; not on the stack: trees may be a thousand deep.
 struct ExactTracer::Level {
     BatchHits hits;
     std::vector<Face> faces;
-    std::vector<Piece> pieces;
     std::uint8_t face_of[batch_size];
 
     BatchVectors point, point_error, normal, shading, view, diffuse, side, sum;
     ShadowOrigins outside;
     BatchFloats t, way;  // from the ray's origin, and from the eye
     RaySet entering = 0, hit = 0;
-    float until = 0;  // no ray has looked for hits beyond
+    RaySet alone = 0;  // rays that were searched for one by one
+    float until = 0;   // no ray has looked for hits beyond
 
     struct LightValue {
-        BatchVectors value;             // what it adds where it is not blocked
-        RaySet rays = 0;                // for which it may
-        RaySet asked = 0, blocked = 0;  // rays of which it is known whether they see it, and those that do not
+        BatchVectors value;                                   // what it adds where it is not blocked
+        RaySet rays = 0;                                      // for which it may
+        RaySet asked = 0, blocked = 0;                        // rays of which it is known whether they see it, or not
+        std::array<RaySet, no_cell_reasons> without_cells{};  // of those, for which cells did not do, by why
+
+        void forget() {
+            rays = asked = blocked = 0;
+            without_cells = {};
+        }
     };
     std::vector<LightValue> lights;
 

@@ -57,6 +57,7 @@ bool ExactTracer::recall(const RayBatch& rays, const std::uint64_t* kept, Level&
         level.add(face);
     }
     level.hit = batch.hit;
+    level.alone = batch.alone;
     level.until = batch.until;
     for (RaySet rest = level.hit; rest != 0;) {
         const int i = take_first(rest);
@@ -91,6 +92,8 @@ void ExactTracer::recall_lights(Level& level) {
     for (int k = 0; k < batch.lights; ++k) {
         record::Light light;
         at = record::read(at, &light, 1);
+        const std::uint64_t* reasons = at;
+        at += std::popcount(light.reasons);
         const auto place = std::ranges::find(places, light.place);
         if (place == places.end()) continue;
         const auto index = std::size_t(place - places.begin());
@@ -104,6 +107,8 @@ void ExactTracer::recall_lights(Level& level) {
         }
         level.lights[index].asked = light.asked;
         level.lights[index].blocked = light.blocked;
+        for (std::size_t why = 0; why < no_cell_reasons; ++why)
+            if (light.reasons >> why & 1) reasons = record::read(reasons, &level.lights[index].without_cells[why], 1);
     }
 }
 
@@ -111,7 +116,7 @@ void ExactTracer::recall_lights(Level& level) {
 void ExactTracer::write(Level& level) {
     if (!cells_.blocks().is_open()) return;
     const Geometry& geometry = scene_.geometry();
-    record::Batch batch{0, 0, std::uint16_t(level.faces.size()), 0, level.until, level.hit};
+    record::Batch batch{0, 0, std::uint16_t(level.faces.size()), 0, level.until, level.hit, level.alone};
     for (const Level::LightValue& light : level.lights) batch.lights = std::uint16_t(batch.lights + (light.asked != 0));
     level.written = record::append(written_, &batch, 1);
     for (const Face& face : level.faces) {
@@ -125,8 +130,12 @@ void ExactTracer::write(Level& level) {
     for (std::size_t i = 0; i < level.lights.size(); ++i) {
         const Level::LightValue& light = level.lights[i];
         if (light.asked == 0) continue;
-        const record::Light to{cells_.blocks().light_places()[i], 0, light.asked, light.blocked};
+        record::Light to{cells_.blocks().light_places()[i], 0, light.asked, light.blocked};
+        for (std::size_t why = 0; why < no_cell_reasons; ++why)
+            to.reasons |= (light.without_cells[why] != 0 ? 1u : 0u) << why;
         record::append(written_, &to, 1);
+        for (const RaySet set : light.without_cells)
+            if (set != 0) record::append(written_, &set, 1);
     }
 }
 

@@ -7,6 +7,13 @@ namespace {
 
 constexpr int cells_pay = 12;  // TUNED: rays of one batch on one face, from which on it is worth having cells
 
+constexpr std::size_t piece_slots = 64;  // TUNED: more are hardly ever seen in one tile
+
+std::size_t slot_of(const FaceKey& key) {
+    const std::uint32_t face = std::uint32_t(key.face_offset + key.face) * Chart::pieces + std::uint32_t(key.piece);
+    return ((key.primitive * 2 + (key.outward ? 1 : 0)) * 0x9e3779b1u + face * 0x85ebca6bu) >> 26;
+}
+
 Searched reason(NoCell why) {
     if (why == NoCell::unsupported) return Searched::unsupported;
     return why == NoCell::crowded ? Searched::shadow : Searched::cost;
@@ -17,28 +24,32 @@ Searched reason(NoCell why) {
 // Leaves in the light's `rays` those that see it.
 void ExactTracer::settle_shadows(Level& level, std::size_t light, BatchRadiance& out) {
     Level::LightValue& value = level.lights[light];
-    const RaySet all = value.rays & ~value.asked;
+    const RaySet weigh = value.rays, all = weigh & ~value.asked;
     value.rays &= ~(value.asked & value.blocked);
-    if (all == 0) return;
-    search_shadows(level, light, all, out);
-    value.asked |= all;
-    value.blocked = (value.blocked & ~all) | (all & ~value.rays);
+    if (all != 0) {
+        search_shadows(level, light, all);
+        value.asked |= all;
+        value.blocked = (value.blocked & ~all) | (all & ~value.rays);
+    }
+    for (std::size_t why = 0; why < no_cell_reasons; ++why)
+        for (RaySet each = value.without_cells[why] & weigh; each != 0;)
+            mark(out.searched[take_first(each)], reason(NoCell(why)));
 }
 
 // From the lists of cells; what they do not know is searched for.
-void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all, BatchRadiance& out) {
+void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all) {
     RaySet rest = 0;
     for (Face& face : level.faces) {
         const RaySet open = all & face.rays;
         if (open == 0) continue;
         if (std::popcount(face.rays) >= cells_pay) {
-            rest |= ask_cells(level, face, light, open, out);
+            rest |= ask_cells(level, face, light, open);
             continue;
         }
         rest |= open;
         const bool charted = Chart::is_known(scene_.geometry(), scene_.geometry().leaves[face.leaf]);
-        const Searched why = charted ? Searched::cost : Searched::unsupported;
-        for (RaySet each = open; each != 0;) mark(out.searched[take_first(each)], why);
+        const NoCell why = charted ? NoCell::cost : NoCell::unsupported;
+        level.lights[light].without_cells[std::size_t(why)] |= open;
     }
     if (rest == 0) return;
     const int first = std::countr_zero(rest);
@@ -50,50 +61,57 @@ void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all, Ba
     counts_.tests += counts.tests;
 }
 
-ExactTracer::Piece& ExactTracer::piece_at(Level& level, Face& face, int index) {
+ExactTracer::Piece& ExactTracer::piece_at(const Level& level, const Face& face, int index) {
     const Geometry& geometry = scene_.geometry();
     const int number = Chart::piece_for(geometry, face.leaf, face.face, Vec3d(level.normal[index]));
-    for (Piece& piece : level.pieces)
-        if (piece.face == &face && piece.number == number) return piece;
     const bool outward = face.entering || is_sheet(geometry.leaves[face.leaf]);
     const FaceKey key{face.primitive, face.leaf, face.face, face.face_offset, number, outward, face.outer};
-    const double footprint = double(level.way[index]) * settings_.pixel_angle;
-    level.pieces.push_back(
-        {&face, number, FaceCells(cells_, scene_, key, footprint, settings_.policy, counts_.cells), {}});
-    Piece& piece = level.pieces.back();
-    if (piece.cells.is_supported())
+    if (pieces_.empty()) pieces_.resize(piece_slots);
+    std::optional<Piece>& slot = pieces_[slot_of(key)];
+    if (!slot || slot->tile != tile_ || slot->cells.key() != key) {
+        slot.emplace(FaceCells(cells_, scene_, key, settings_.policy, counts_.cells), tile_);
+        slot->answers.resize(scene_.lights().size());
+    }
+    if (slot->batch != batch_ && slot->cells.is_supported())
         for (int k = 0; k < batch_packs; ++k)
             if (lanes_of_pack(face.rays, k) != 0)
-                piece.points[std::size_t(k)] =
-                    piece.cells.chart().coordinates(Vec3<DoublePack>(level.outside.origin.pack(k)));
-    return piece;
+                slot->points[std::size_t(k)] =
+                    slot->cells.chart().coordinates(Vec3<DoublePack>(level.outside.origin.pack(k)));
+    slot->batch = batch_;
+    return *slot;
+}
+
+// The last answer, as long as it is about the same cell.
+const CellAnswer& ExactTracer::ask(const Level& level, Piece& piece, std::size_t light, int index) {
+    CellAnswer& answer = piece.answers[light];
+    const Vec3d point = piece.point(index);
+    if (answer.verdict != CellVerdict::none && contains(answer.cell, point)) return answer;
+    answer = {};
+    if (!piece.cells.is_supported()) return answer;
+    answer = piece.cells.ask(light, point, double(level.way[index]) * settings_.pixel_angle);
+    if (answer.verdict != CellVerdict::none && !contains(answer.cell, point)) answer.verdict = CellVerdict::none;
+    return answer;
 }
 
 // Settles what the face's cells know; returns the rays that have to be searched for.
-RaySet ExactTracer::ask_cells(Level& level, Face& face, std::size_t light, RaySet open, BatchRadiance& out) {
+RaySet ExactTracer::ask_cells(Level& level, const Face& face, std::size_t light, RaySet open) {
     RaySet rest = 0;
     while (open != 0) {
         const int first = std::countr_zero(open);
         Piece& piece = piece_at(level, face, first);
-        CellAnswer answer;
-        if (piece.cells.is_supported()) {
-            const Vec3<DoublePack>& at = piece.points[std::size_t(first / pack_width)];
-            const int lane = first % pack_width;
-            const Vec3d point{at.x.v[lane], at.y.v[lane], at.z.v[lane]};
-            answer = piece.cells.ask(light, point);
-            if (answer.verdict != CellVerdict::none && contains(answer.cell, point)) {
-                RaySet inside = 0;
-                for (int k = first / pack_width; k < batch_packs; ++k)
-                    if (const std::uint32_t lanes = lanes_of_pack(open, k); lanes != 0)
-                        inside |= set_of_pack(lanes & bits(contains(answer.cell, piece.points[std::size_t(k)])), k);
-                test_candidates(level, light, inside, answer);
-                open &= ~inside;
-                continue;
-            }
+        const CellAnswer& answer = ask(level, piece, light, first);
+        if (answer.verdict != CellVerdict::none) {
+            RaySet inside = 0;
+            for (int k = first / pack_width; k < batch_packs; ++k)
+                if (const std::uint32_t lanes = lanes_of_pack(open, k); lanes != 0)
+                    inside |= set_of_pack(lanes & bits(contains(answer.cell, piece.points[std::size_t(k)])), k);
+            test_candidates(level, light, inside, answer);
+            open &= ~inside;
+            continue;
         }
         // Nothing is known here; where that is not for a list's length it is true of the others, too.
         const RaySet unknown = answer.why == NoCell::crowded ? open & -open : open;
-        for (RaySet each = unknown; each != 0;) mark(out.searched[take_first(each)], reason(answer.why));
+        level.lights[light].without_cells[std::size_t(answer.why)] |= unknown;
         rest |= unknown;
         open &= ~unknown;
     }

@@ -40,6 +40,7 @@ ExactTracer::Level& ExactTracer::level_at(int depth) {
 }
 
 void ExactTracer::begin_tile() {
+    ++tile_;
     eye_mode_ = {};
     std::ranges::fill(last_blockers_, Departure::none);
 }
@@ -54,13 +55,11 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
                         BatchRadiance& out) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return;
     Level& level = level_at(depth);
-    for (Level::LightValue& light : level.lights) light.rays = light.asked = light.blocked = 0;
-    level.pieces.clear();
+    for (Level::LightValue& light : level.lights) light.forget();
+    ++batch_;
     level.kept = kept && recall(rays, kept, level) ? kept : nullptr;
-    if (level.kept)
-        std::fill_n(out.searched, rays.count, Searched::no);
-    else
-        search(rays, depth, kind, level, out);
+    if (!level.kept) search(rays, depth, kind, level);
+    for (int i = 0; i < rays.count; ++i) out.searched[i] = level.alone >> i & 1 ? Searched::eye : Searched::no;
     for (RaySet missed = rays.all() & ~level.hit; missed != 0;) {
         const int i = take_first(missed);
         out.t[i] = infinity<float>;
@@ -94,14 +93,12 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
     }
 }
 
-void ExactTracer::search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level,
-                         BatchRadiance& out) {
+void ExactTracer::search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level) {
     SearchCounts counts;
     BatchMode one_off;
-    const RaySet alone = closest_hits(scene_, rays, level.hits, depth == 1 ? eye_mode_ : one_off, counts);
+    level.alone = closest_hits(scene_, rays, level.hits, depth == 1 ? eye_mode_ : one_off, counts);
     counts_.rays.*kind += counts.searches;
     counts_.tests += counts.tests;
-    for (int i = 0; i < rays.count; ++i) out.searched[i] = alone >> i & 1 ? Searched::eye : Searched::no;
     find_faces(rays, level);
 }
 

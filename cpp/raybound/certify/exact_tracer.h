@@ -55,15 +55,16 @@ class ExactTracer {
     Level& level_at(int depth);
     void trace(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, const std::uint64_t* kept,
                BatchRadiance& out);
-    void search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level, BatchRadiance& out);
+    void search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level);
     void find_faces(const RayBatch& rays, Level& level);
     void meet_face(const RayBatch& rays, Level& level, Face& face);
     void meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index, int count);
     void weigh_lights(Level& level, const Material& material, RaySet rays);
     void settle_shadows(Level& level, std::size_t light, BatchRadiance& out);
-    void search_shadows(Level& level, std::size_t light, RaySet all, BatchRadiance& out);
-    RaySet ask_cells(Level& level, Face& face, std::size_t light, RaySet open, BatchRadiance& out);
-    Piece& piece_at(Level& level, Face& face, int index);
+    void search_shadows(Level& level, std::size_t light, RaySet all);
+    RaySet ask_cells(Level& level, const Face& face, std::size_t light, RaySet open);
+    Piece& piece_at(const Level& level, const Face& face, int index);
+    const CellAnswer& ask(const Level& level, Piece& piece, std::size_t light, int index);
     void test_candidates(Level& level, std::size_t light, RaySet rays, const CellAnswer& answer);
     void add_secondary(Level& level, int depth, BatchRadiance& out);
     void spawn(Level& level, const Material& material, RaySet hits);
@@ -85,6 +86,8 @@ class ExactTracer {
     BatchMode eye_mode_;
     std::vector<std::unique_ptr<Level>> levels_;  // of the ray tree, made when they are first reached
     std::vector<std::uint32_t> last_blockers_;    // by light
+    std::vector<std::optional<Piece>> pieces_;    // of faces seen in this tile, by a hash of their keys
+    std::uint64_t tile_ = 0, batch_ = 0;          // numbers of those at hand
     std::span<const SceneChange> changes_;        // since what is kept was written
     record::Words written_;
 };

@@ -99,12 +99,11 @@ std::uint32_t FaceCells::verdict(Cells& cells, const Snapshot& scene, const Bund
     return entry;
 }
 
-FaceCells::FaceCells(Cells& cells, const Snapshot& scene, const FaceKey& key, double footprint,
-                     const CellPolicy& policy, CellCounts& counts)
+FaceCells::FaceCells(Cells& cells, const Snapshot& scene, const FaceKey& key, const CellPolicy& policy,
+                     CellCounts& counts)
     : cells_(cells),
       scene_(scene),
       key_(key),
-      footprint_(footprint),
       policy_(policy),
       counts_(counts),
       chart_(Chart::make(scene.geometry(), key.leaf, key.face, key.piece)) {
@@ -114,9 +113,9 @@ FaceCells::FaceCells(Cells& cells, const Snapshot& scene, const FaceKey& key, do
     root_ = cells.make_cells(roots + root_number(key), 1);
 }
 
-CellAnswer FaceCells::ask(std::size_t light, const Vec3d& point) {
+CellAnswer FaceCells::ask(std::size_t light, const Vec3d& point, double footprint) {
     CellAnswer answer;
-    if (root_ == Arena::none || !(footprint_ > 0)) {
+    if (root_ == Arena::none || !(footprint > 0)) {
         answer.why = root_ == Arena::none ? NoCell::memory : NoCell::cost;
         return answer;
     }
@@ -127,11 +126,11 @@ CellAnswer FaceCells::ask(std::size_t light, const Vec3d& point) {
     for (;;) {
         const double u = chart_->length_u(rectangle), v = chart_->length_v(rectangle);
         const double length = maximum(u, v);
-        const bool smallest = 0.5 * length < policy_.smallest_cell * footprint_;
+        const bool smallest = 0.5 * length < policy_.smallest_cell * footprint;
         cells_.touch(cell);
-        if (length <= policy_.first_cells * footprint_) {
+        if (length <= policy_.first_cells * footprint) {
             // (Whether the verdict is there already must not matter: which thread asks first is chance.)
-            if (first && u * v < policy_.least_rays * square(footprint_)) {
+            if (first && u * v < policy_.least_rays * square(footprint)) {
                 answer.why = NoCell::cost;
                 return answer;
             }

@@ -26,16 +26,16 @@ ChartRectangle part(const ChartRectangle& whole, const Division& division, int i
 
 class FaceCells {
   public:
-    // For hits of a face; pixels there are `footprint` wide.
-    FaceCells(Cells& cells, const Snapshot& scene, const FaceKey& key, double footprint, const CellPolicy& policy,
-              CellCounts& counts);
+    FaceCells(Cells& cells, const Snapshot& scene, const FaceKey& key, const CellPolicy& policy, CellCounts& counts);
 
     bool is_supported() const { return chart_.has_value(); }
     const Chart& chart() const { return *chart_; }
 
-    // What may block the light for rays that begin at a point of these coordinates. The answer holds for all points in
-    // its cell.
-    CellAnswer ask(std::size_t light, const Vec3d& point);
+    const FaceKey& key() const { return key_; }
+
+    // What may block the light for rays that begin at a point of these coordinates, where pixels are `footprint` wide.
+    // The answer holds for all points in its cell.
+    CellAnswer ask(std::size_t light, const Vec3d& point, double footprint);
 
     // The verdict of one cell, made now if it is not known yet: from the parent's list, or by a walk of the BVH.
     static std::uint32_t verdict(Cells& cells, const Snapshot& scene, const Bundle& bundle, std::uint32_t departed,
@@ -45,7 +45,6 @@ class FaceCells {
     Cells& cells_;
     const Snapshot& scene_;
     FaceKey key_;
-    double footprint_;
     CellPolicy policy_;
     CellCounts& counts_;
     std::optional<Chart> chart_;
