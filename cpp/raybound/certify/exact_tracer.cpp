@@ -60,36 +60,34 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
     level.kept = kept && recall(rays, kept, level) ? kept : nullptr;
     if (!level.kept) search(rays, depth, kind, level);
     for (int i = 0; i < rays.count; ++i) out.searched[i] = level.alone >> i & 1 ? Searched::eye : Searched::no;
-    for (RaySet missed = rays.all() & ~level.hit; missed != 0;) {
-        const int i = take_first(missed);
-        out.t[i] = infinity<float>;
-        out.object[i] = -1;
-        out.radiance.set(i, scene_.background());
-    }
+    std::fill_n(out.object, rays.count, -1);
     for (Face& face : level.faces) meet_face(rays, level, face);
 
     level.visit_materials([&](const Material& material, RaySet hits) { weigh_lights(level, material, hits); });
     if (level.kept) recall_lights(level);
     for (std::size_t light = 0; light < level.lights.size(); ++light) settle_shadows(level, light, out);
     write(level);
-    if (level.hit == 0) return;
 
+    add_lights(level, rays.packs());
+    for (const Face& face : level.faces)
+        for (RaySet rest = face.rays; rest != 0;) out.object[take_first(rest)] = face.object;
+    if (depth < settings_.max_depth) add_secondary(level, depth, out);
     for (int k = 0; k < rays.packs(); ++k) {
+        const PackMask<float> hit = lanes_of<float>(lanes_of_pack(level.hit, k));
+        store(select(hit, level.t.pack(k), infinity<FloatPack>), out.t.value + k * pack_width);
+        out.radiance.set_pack(k, select(hit, level.sum.pack(k), Vec3<FloatPack>(scene_.background())));
+    }
+}
+
+// What surfaces send toward the viewer by themselves.
+void ExactTracer::add_lights(Level& level, int packs) const {
+    for (int k = 0; k < packs; ++k) {
+        if (lanes_of_pack(level.hit, k) == 0) continue;
         Vec3<FloatPack> sum = saturate(Vec3<FloatPack>(scene_.ambient()) * level.diffuse.pack(k));
         for (const Level::LightValue& light : level.lights)
             if (const std::uint32_t lanes = lanes_of_pack(light.rays, k); lanes != 0)
                 sum = select(lanes_of<float>(lanes), saturate(sum + light.value.pack(k)), sum);
         level.sum.set_pack(k, sum);
-    }
-    for (RaySet rest = level.hit; rest != 0;) {
-        const int i = take_first(rest);
-        out.t[i] = level.t[i];
-        out.object[i] = level.faces[level.face_of[i]].object;
-    }
-    if (depth < settings_.max_depth) add_secondary(level, depth, out);
-    for (RaySet rest = level.hit; rest != 0;) {
-        const int i = take_first(rest);
-        out.radiance.set(i, level.sum[i]);
     }
 }
 
@@ -184,66 +182,6 @@ void ExactTracer::weigh_lights(Level& level, const Material& material, RaySet ra
             if (weighs == 0) continue;  // behind, or out of reach
             level.lights[i].rays |= scatter(weighs, index, order.lanes(k));
             scatter(term.irradiance * term.factor, index, order.lanes(k), level.lights[i].value);
-        }
-    }
-}
-
-// The rays that surfaces of one material may send on.
-void ExactTracer::spawn(Level& level, const Material& material, RaySet hits) {
-    const Order order(hits);
-    for (int k = 0; k < order.packs(); ++k) {
-        const std::uint8_t* index = order.pack(k);
-        const SecondaryRays<FloatPack> next =
-            secondary_rays(material, -gather(level.view, index), gather(level.shading, index),
-                           lanes_of<float>(gather(level.entering, index)));
-        scatter(next.reflect, index, order.lanes(k), level.reflected.weight_of_hit);
-        scatter(next.reflected, index, order.lanes(k), level.reflected.direction_of_hit);
-        if (material.transmit == Vec3f{}) continue;
-        scatter(next.transmit, index, order.lanes(k), level.refracted.weight_of_hit);
-        scatter(next.refracted, index, order.lanes(k), level.refracted.direction_of_hit);
-    }
-}
-
-// Those that have a weight, face by face: colours change nothing in their order.
-void ExactTracer::collect(Level& level, bool reflected) {
-    Level::Spawned& next = reflected ? level.reflected : level.refracted;
-    next.rays.count = 0;
-    for (const Face& face : level.faces) {
-        const Material& material = *face.material;
-        if (material.transmit == Vec3f{} && (!reflected || material.reflect == Vec3f{})) continue;
-        for (RaySet rest = face.rays; rest != 0;) {
-            const int i = take_first(rest);
-            const Vec3f weight = next.weight_of_hit[i];
-            if (!(max_component(weight) > 0)) continue;
-            next.parent[next.rays.count] = std::uint8_t(i);
-            next.weight.set(next.rays.count, weight);
-            const Vec3f origin = reflected ? level.outside.origin[i]
-                                           : offset_origin(level.point[i], level.point_error[i], -level.side[i]);
-            next.rays.add(origin, make_ray(origin, next.direction_of_hit[i]).direction, level.way[i],
-                          reflected ? face.outer : face.inner);
-        }
-    }
-}
-
-// local + reflect L(R) + transmit L(T), in this order.
-void ExactTracer::add_secondary(Level& level, int depth, BatchRadiance& out) {
-    level.visit_materials([&](const Material& material, RaySet hits) {
-        if (material.reflect != Vec3f{} || material.transmit != Vec3f{}) spawn(level, material, hits);
-    });
-    for (const bool reflected : {true, false}) {
-        Level::Spawned& next = reflected ? level.reflected : level.refracted;
-        collect(level, reflected);
-        if (next.rays.count == 0) continue;
-        next.rays.pad();
-        write_tree(level, reflected);
-        trace(next.rays, depth + 1, reflected ? &RayCounts::reflected : &RayCounts::refracted,
-              kept_tree(level, reflected), level.seen);
-        for (int c = 0; c < next.rays.count; ++c) {
-            const int i = next.parent[c];
-            level.sum.set(i, saturate(level.sum[i] + next.weight[c] * level.seen.radiance[c]));
-            const Searched why = level.seen.searched[c];
-            const Searched way = reflected ? Searched::reflection : Searched::refraction;
-            mark(out.searched[i], why == Searched::eye ? way : why);
         }
     }
 }

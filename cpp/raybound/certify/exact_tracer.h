@@ -60,6 +60,7 @@ class ExactTracer {
     void meet_face(const RayBatch& rays, Level& level, Face& face);
     void meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index, int count);
     void weigh_lights(Level& level, const Material& material, RaySet rays);
+    void add_lights(Level& level, int packs) const;
     void settle_shadows(Level& level, std::size_t light, BatchRadiance& out);
     void search_shadows(Level& level, std::size_t light, RaySet all);
     RaySet ask_cells(Level& level, const Face& face, std::size_t light, RaySet open);

@@ -1,6 +1,7 @@
 // Rays that are traced together: up to 64, side by side, in packs of eight.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 
 #include "raybound/shapes/intersect_pack.h"
@@ -59,6 +60,15 @@ struct RayBatch {
         direction.set(count, d);
         travelled[count] = way;
         departed[count++] = left;
+    }
+    // Eight at once, where as many stand before as fill packs.
+    void add_pack(const Vec3<FloatPack>& o, const Vec3<FloatPack>& d, float way, std::uint32_t left) {
+        const int k = count / pack_width;
+        origin.set_pack(k, o);
+        direction.set_pack(k, d);
+        store(FloatPack(way), travelled.value + count);
+        std::fill_n(departed + count, pack_width, left);
+        count += pack_width;
     }
     // Lanes out of use repeat the last ray.
     void pad() {

@@ -2,6 +2,7 @@
 #include "raybound/frame/stopwatch.h"
 #include "raybound/frame/tiling.h"
 #include "raybound/geometry/lanes.h"
+#include "raybound/shapes/lanes.h"
 
 namespace raybound {
 
@@ -10,32 +11,11 @@ namespace {
 constexpr int block_size = 8;
 static_assert(block_size * block_size == batch_size && tile_size % block_size == 0);
 
-// What was searched for, as pixels tell it.
-Reason reason_of(Searched searched) {
-    switch (searched) {
-        case Searched::no:
-            return Reason::none;
-        case Searched::eye:
-            return Reason::silhouette;
-        case Searched::shadow:
-            return Reason::shadow;
-        case Searched::reflection:
-            return Reason::reflection;
-        case Searched::refraction:
-            return Reason::refraction;
-        case Searched::cost:
-            return Reason::cost;
-        case Searched::unsupported:
-            return Reason::unsupported;
-    }
-    return Reason::none;
-}
-
-Path path_of(Searched searched, std::int32_t object) {
-    if (object < 0) return Path::background;
-    if (searched == Searched::no) return Path::exact;
-    return searched == Searched::eye ? Path::traced : Path::partial;
-}
+// What was searched for, as pixels tell it: by Searched.
+constexpr Reason reasons[] = {Reason::none,       Reason::silhouette, Reason::shadow,     Reason::reflection,
+                              Reason::refraction, Reason::cost,       Reason::unsupported};
+constexpr Path paths[] = {Path::exact,   Path::traced,  Path::partial, Path::partial,
+                          Path::partial, Path::partial, Path::partial};
 
 // What a worker needs for one block, apart from its tracer.
 struct BlockRays {
@@ -50,19 +30,24 @@ static_assert(pack_columns * pack_rows == pack_width);
 
 void add_pack(const Camera& camera, const FrameBuffers& buffers, const Tile& block, int x, int y, BlockRays& to) {
     float column[pack_width], row[pack_width];
-    for (int lane = 0; lane < pack_width; ++lane) {
-        column[lane] = float(x + lane % pack_columns);
-        row[lane] = float(y + lane / pack_columns);
-    }
-    const Vec3<FloatPack> directions = flushed(camera.direction_through(FloatPack::load(column), FloatPack::load(row)));
+    std::size_t at[pack_width];
+    std::uint32_t wanted = 0;
     for (int lane = 0; lane < pack_width; ++lane) {
         const int i = x + lane % pack_columns, j = y + lane / pack_columns;
-        if (i >= block.x1 || j >= block.y1) continue;
-        const std::size_t at = buffers.index(i, j);
-        if (buffers.error_bound[at] == 0) continue;
-        to.pixel[std::size_t(to.rays.count)] = at;
-        to.rays.add(camera.eye(), lane_of(directions, lane), 0, Departure::none);
+        column[lane] = float(i);
+        row[lane] = float(j);
+        at[lane] = buffers.index(i, j);
+        if (i < block.x1 && j < block.y1 && buffers.error_bound[at[lane]] != 0) wanted |= 1u << lane;
     }
+    const Vec3<FloatPack> directions = flushed(camera.direction_through(FloatPack::load(column), FloatPack::load(row)));
+    if (wanted == 0xffu && to.rays.count % pack_width == 0) {
+        std::ranges::copy(at, to.pixel.begin() + to.rays.count);
+        return to.rays.add_pack(Vec3<FloatPack>(camera.eye()), directions, 0, Departure::none);
+    }
+    for_each_lane(wanted, [&](int lane) {
+        to.pixel[std::size_t(to.rays.count)] = at[lane];
+        to.rays.add(camera.eye(), lane_of(directions, lane), 0, Departure::none);
+    });
 }
 
 // Blocks row by row over the whole picture.
@@ -88,8 +73,9 @@ void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffe
     for (int k = 0; k < rays.count; ++k) {
         const std::size_t at = work.pixel[std::size_t(k)];
         buffers.image[at] = seen.radiance[k];
-        buffers.path[at] = std::uint8_t(path_of(seen.searched[k], seen.object[k]));
-        buffers.reason[at] = std::uint8_t(reason_of(seen.searched[k]));
+        const auto searched = std::size_t(seen.searched[k]);
+        buffers.path[at] = std::uint8_t(seen.object[k] < 0 ? Path::background : paths[searched]);
+        buffers.reason[at] = std::uint8_t(reasons[searched]);
         buffers.object_id[at] = seen.object[k];
         buffers.depth[at] = seen.t[k];
         buffers.error_bound[at] = 0;
