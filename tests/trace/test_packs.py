@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 import pytest
 from tests.support.random_scenes import random_scene
@@ -120,6 +122,63 @@ def test_hard_cases(name: str, scale: float) -> None:
         ends = hits["point"][np.flatnonzero(hits["hit"])][: len(next_origins)]
         both_blocked(scene, next_origins, f32(ends), directions=False)
         both_blocked(scene, f32(ends), next_origins, directions=False)
+
+
+def coincident_solid(rng: Rng) -> rb.Shape:
+    """A box, cylinder, cone or ball of a few sizes at a few places: faces of several of them coincide."""
+    low = rng.integers(-2, 2, 3) / 2
+    size = rng.integers(1, 4, 3) / 2
+    top, radius = (low[0], low[1], low[2] + size[2]), float(size[0])
+    kind = rng.random()
+    if kind < 0.4:
+        return rb.Box(low, low + size)
+    if kind < 0.6:
+        return rb.Cylinder(low, top, radius=radius)
+    if kind < 0.75:
+        return rb.Cone(low, top, radius=radius)
+    return rb.Sphere(low, radius)
+
+
+def nested(rng: Rng, depth: int) -> rb.Shape:
+    """An expression of coincident solids, some in twice, and now and then a hollow quadric."""
+    if depth == 0:
+        if rng.random() < 0.03:
+            return rb.Quadric((1, 1, -1, 0, 0, 0, 0, 0, 0, -0.1), rb.Box((-1, -1, -1), (1, 1, 1)))
+        return coincident_solid(rng)
+    parts = [nested(rng, depth - int(rng.integers(1, depth + 1))) for _ in range(int(rng.integers(2, 6)))]
+    if rng.random() < 0.3:
+        parts.append(parts[0])
+    if rng.random() < 0.4:
+        with contextlib.suppress(ValueError):  # that the parts do not overlap
+            return rb.Intersection(*parts[:3])
+    return rb.Union(*parts)
+
+
+def test_csg() -> None:
+    seen = dict.fromkeys(["hits", "inside", "blocked", "free"], 0)
+    for seed in range(40):
+        rng = np.random.default_rng([seed, 79])
+        scene = rb.Scene()
+        turn = rb.Transform.rotate(30, axis=(1, 2, 3)) if seed % 2 else None
+        for _ in range(5):
+            scene.add(nested(rng, int(rng.integers(1, 4))), rb.Material(0.5), transform=turn)
+        origins, directions = eights(*ray_mix(rng, 2000))
+        for _ in range(3):
+            hits = both_hits(scene, origins, directions)
+            seen["hits"] += int(hits["hit"].sum())
+            seen["inside"] += int((hits["hit"] & (1 - hits["entering"])).sum())
+            if hits["hit"].sum() < 8:
+                break
+            origins, directions = spawned(hits, rng)
+            ends = f32(origins + directions * 10.0 ** rng.uniform(-3, 1, (len(origins), 1)))
+            blocked = both_blocked(scene, origins, ends, directions=False)
+            both_blocked(scene, origins, directions, directions=True)
+            seen["blocked"] += int(blocked.sum())
+            seen["free"] += int((blocked == 0).sum())
+    assert seen["hits"] > 30000, seen
+    assert seen["inside"] > 10000, seen
+    assert seen["blocked"] > 5000, seen
+    assert seen["free"] > 10000, seen
 
 
 def lights(rng: Rng) -> rb.Scene:

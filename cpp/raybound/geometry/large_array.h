@@ -1,14 +1,15 @@
-// Vectors for what rays walk at random: large ones ask the system for large pages, of which far fewer are looked up.
+// Vectors for what rays walk at random and for frames: large ones ask the system for large pages, of which far fewer
+// are looked up, and leave their memory to the next of the same size.
 #pragma once
 
-#include <cstdlib>
-#include <new>
+#include <cstddef>
 #include <vector>
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace raybound {
+
+// Memory for arrays, aligned to cache lines at least; `bytes` and `alignment` must be the same for both.
+void* allocate_array(std::size_t bytes, std::size_t alignment);
+void release_array(void* memory, std::size_t bytes, std::size_t alignment);
 
 template <class T>
 struct LargePageAllocator {
@@ -19,22 +20,8 @@ struct LargePageAllocator {
     LargePageAllocator(const LargePageAllocator<S>&) {}
     bool operator==(const LargePageAllocator&) const { return true; }
 
-    T* allocate(std::size_t count) {
-        const std::size_t bytes = count * sizeof(T);
-        void* memory = ::operator new(bytes, alignment(bytes));
-#ifdef __linux__
-        if (bytes >= page) madvise(memory, bytes, MADV_HUGEPAGE);  // a hint: nothing is lost where it is not taken
-#endif
-        return static_cast<T*>(memory);
-    }
-    void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count * sizeof(T))); }
-
-  private:
-    static constexpr std::size_t page = std::size_t(1) << 21, cache_line = 64;
-
-    static std::align_val_t alignment(std::size_t bytes) {
-        return std::align_val_t(bytes >= page ? page : alignof(T) > cache_line ? alignof(T) : cache_line);
-    }
+    T* allocate(std::size_t count) { return static_cast<T*>(allocate_array(count * sizeof(T), alignof(T))); }
+    void deallocate(T* memory, std::size_t count) { release_array(memory, count * sizeof(T), alignof(T)); }
 };
 
 template <class T>

@@ -15,15 +15,55 @@ namespace raybound {
 template <class T>
 struct Boundary {
     T t, error;  // error: bounds |t - exact|, for telling coincident faces
-    std::uint32_t node;
-    std::int32_t face;
+    Index<T> node, face;
     Mask<T> ahead;
 };
+
+template <class T>
+inline Boundary<T> select(Mask<T> mask, const Boundary<T>& yes, const Boundary<T>& no) {
+    if constexpr (std::is_same_v<Mask<T>, bool>)
+        return mask ? yes : no;
+    else
+        return {select(mask, yes.t, no.t), select(mask, yes.error, no.error), select(mask, yes.node, no.node),
+                select(mask, yes.face, no.face), select(mask, yes.ahead, no.ahead)};
+}
 
 template <class T>
 struct Interval {
     Boundary<T> in, out;
 };
+
+template <class T>
+inline Interval<T> interval_of(const Span<T>& span, std::uint32_t node, const T& in_error, const T& out_error) {
+    return {{span.t_in, in_error, int(node), span.face_in, span.in_ahead},
+            {span.t_out, out_error, int(node), span.face_out, span.out_ahead}};
+}
+
+// The order of intervals; of those that begin at the same t the earlier part is first.
+template <class T>
+inline Mask<T> begins_before(const Interval<T>& a, const Interval<T>& b) {
+    return (a.in.t < b.in.t) | ((a.in.t == b.in.t) & (a.in.node < b.in.node));
+}
+
+// Intervals in order that touch within their errors become one: no seam where faces coincide.
+template <class T>
+inline Mask<T> touches(const Interval<T>& a, const Interval<T>& b) {
+    return b.in.t - b.in.error <= a.out.t + a.out.error;
+}
+template <class T>
+inline Boundary<T> united_out(const Interval<T>& a, const Interval<T>& b) {
+    return select(Mask<T>(b.out.t > a.out.t), b.out, a.out);
+}
+
+// What two intervals have in common: nothing if it is thinner than its errors.
+template <class T>
+inline Interval<T> overlap(const Interval<T>& a, const Interval<T>& b) {
+    return {select(Mask<T>(b.in.t > a.in.t), b.in, a.in), select(Mask<T>(b.out.t < a.out.t), b.out, a.out)};
+}
+template <class T>
+inline Mask<T> is_thick(const Interval<T>& a) {
+    return a.out.t - a.in.t > a.in.error + a.out.error;
+}
 
 // What a line has inside of each leaf of an expression, with the errors of its ends: found when it is asked for.
 template <class T>
@@ -55,16 +95,14 @@ class LeafSpans {
 };
 
 // The intervals of an expression along a ray, in order of t.
-template <class T, class Spans = LeafSpans<T>>
+template <class T>
 class CsgEvaluation {
   public:
-    CsgEvaluation(const Geometry& geometry, const Spans& spans) : geometry_(geometry), spans_(spans) {
+    CsgEvaluation(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), spans_(geometry, ray) {
         stack_.reserve(32);
     }
     CsgEvaluation(const CsgEvaluation&) = delete;
     CsgEvaluation& operator=(const CsgEvaluation&) = delete;
-
-    std::span<const Interval<T>> intervals() const { return stack_; }
 
     // The first boundary ahead, if there is one, and whether it is an entry.
     const Boundary<T>* first_ahead(bool& entering) const {
@@ -92,25 +130,21 @@ class CsgEvaluation {
   private:
     void push_leaf(std::uint32_t index, const CsgNode& node) {
         spans_.visit(node, [&](const Span<T>& span, const T& in_error, const T& out_error) {
-            stack_.push_back({{span.t_in, in_error, index, span.face_in, span.in_ahead},
-                              {span.t_out, out_error, index, span.face_out, span.out_ahead}});
+            stack_.push_back(interval_of(span, index, in_error, out_error));
         });
     }
 
     std::uint32_t child(const CsgNode& node, std::uint32_t i) const { return geometry_.csg_children[node.first + i]; }
 
-    // Sorted by entry, intervals that touch within their errors become one: no seam where faces coincide.
     void unite(const CsgNode& node) {
         const std::size_t begin = stack_.size();
         for (std::uint32_t i = 0; i < node.count; ++i) evaluate(child(node, i));
         const auto first = stack_.begin() + std::ptrdiff_t(begin);
-        std::sort(first, stack_.end(), [](const auto& a, const auto& b) {
-            return std::pair(a.in.t, a.in.node) < std::pair(b.in.t, b.in.node);  // equal entries: the earlier part
-        });
+        std::sort(first, stack_.end(), [](const auto& a, const auto& b) { return begins_before(a, b); });
         std::size_t last = begin;
         for (std::size_t i = begin + 1; i < stack_.size(); ++i) {
-            if (stack_[i].in.t - stack_[i].in.error <= stack_[last].out.t + stack_[last].out.error) {
-                if (stack_[i].out.t > stack_[last].out.t) stack_[last].out = stack_[i].out;
+            if (touches(stack_[last], stack_[i])) {
+                stack_[last].out = united_out(stack_[last], stack_[i]);
             } else {
                 stack_[++last] = stack_[i];
             }
@@ -118,7 +152,7 @@ class CsgEvaluation {
         if (stack_.size() > begin) stack_.resize(last + 1);
     }
 
-    // Pairwise overlaps of two sorted lists; one thinner than its errors is nothing.
+    // Pairwise overlaps of two sorted lists.
     void intersect(const CsgNode& node) {
         const std::size_t begin = stack_.size();
         evaluate(child(node, 0));
@@ -129,8 +163,8 @@ class CsgEvaluation {
             std::size_t a = begin, b = middle;
             while (a < middle && b < end) {
                 const Interval<T> x = stack_[a], y = stack_[b];
-                const Interval<T> both{y.in.t > x.in.t ? y.in : x.in, y.out.t < x.out.t ? y.out : x.out};
-                if (both.out.t - both.in.t > both.in.error + both.out.error) stack_.push_back(both);
+                const Interval<T> both = overlap(x, y);
+                if (is_thick(both)) stack_.push_back(both);
                 ++(x.out.t < y.out.t ? a : b);
             }
             stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
@@ -138,7 +172,7 @@ class CsgEvaluation {
     }
 
     const Geometry& geometry_;
-    const Spans& spans_;
+    const LeafSpans<T> spans_;
     // Most expressions fit in the buffer: no allocation on the way of a ray.
     alignas(Interval<T>) std::array<std::byte, 64 * sizeof(Interval<T>)> buffer_;
     std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};

@@ -30,12 +30,11 @@ Crossing<W> cross_leaf(const Geometry& geometry, std::uint32_t index, const Ray<
 
 template <class W>
 Crossing<W> cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<W>& ray) {
-    const LeafSpans<W> spans(geometry, ray);
-    CsgEvaluation<W> evaluation(geometry, spans);
+    CsgEvaluation<W> evaluation(geometry, ray);
     evaluation.evaluate(root);
     bool entering = false;
     if (const Boundary<W>* first = evaluation.first_ahead(entering)) {
-        const CsgNode& node = geometry.csg_nodes[first->node];
+        const CsgNode& node = geometry.csg_nodes[std::size_t(first->node)];
         return {first->t, node.first, first->face, node.face_offset, true, entering};
     }
     return {infinity<W>, 0, 0, 0, Mask<W>(false), Mask<W>(false)};

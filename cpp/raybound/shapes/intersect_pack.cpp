@@ -27,35 +27,28 @@ Crossings cross_convex(const Geometry& geometry, std::uint32_t index, const Ray<
 }
 
 Crossings cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<DoublePack>& rays, std::uint32_t lanes) {
-    const CsgPack pack(geometry, root, rays, lanes);
+    CsgPack pack(geometry, rays);
+    const CsgPack::FirstBoundary first = pack.first_boundary(root, lanes);
     Crossings found;
-    for_each_lane(pack.lanes(), [&](int lane) {
-        const std::optional<CsgCrossing> first = pack.first_crossing(lane);
-        if (!first) return;
-        const CsgNode& node = geometry.csg_nodes[first->boundary.node];
-        set_lane(found.t, lane, first->boundary.t);
-        found.face[lane] = first->boundary.face;
+    found.t = first.boundary.t;
+    found.face = __builtin_convertvector(first.boundary.face.v, PackVector<std::int32_t>);
+    found.hit = first.hit;
+    found.entering = first.entering;
+    for_each_lane(found.hit, [&](int lane) {
+        const CsgNode& node = geometry.csg_nodes[std::size_t(first.boundary.node[lane])];
         found.face_offset[lane] = node.face_offset;
         found.leaf[lane] = std::int32_t(node.first);
-        found.hit |= 1u << lane;
-        found.entering |= std::uint32_t(first->entering) << lane;
     });
     return found;
 }
 
 std::uint32_t blocked_by_csg(const Geometry& geometry, std::uint32_t root, const RayPack& rays, std::uint32_t lanes) {
-    const CsgPack pack(geometry, root, rays.wide, lanes);
-    const DoublePack end = rays.wide.t_max * DoublePack(1 - gamma<double>(8));
-    std::uint32_t blocked = 0;
-    for_each_lane(pack.lanes(), [&](int lane) {
-        const std::optional<CsgCrossing> first = pack.first_crossing(lane);
-        if (!first) return;
-        const Boundary<double>& boundary = first->boundary;
-        const bool before =
-            !rays.wide.has_target || (boundary.t < end[lane] && boundary.t + boundary.error < end[lane]);
-        blocked |= std::uint32_t(before) << lane;
-    });
-    return blocked;
+    CsgPack pack(geometry, rays.wide);
+    const CsgPack::FirstBoundary first = pack.first_boundary(root, lanes);
+    if (!rays.wide.has_target || first.hit == 0) return first.hit;
+    const DoublePack &t = first.boundary.t, end = rays.wide.t_max * DoublePack(1 - gamma<double>(8));
+    const std::uint32_t before = first.hit & bits(t < end);
+    return before & bits(t + pack.errors(first.boundary, before) < end);
 }
 
 // What is not convex: ray by ray. (The filter in float is worth its time for quadrics.)
