@@ -12,7 +12,8 @@ namespace {
 // Rays this far apart in direction have little in common.
 constexpr double widest = 0.25;  // TUNED
 constexpr int fewest = 3;        // rays that a bundle pays for
-constexpr int most_asked = 16;   // TUNED: primitives that a bundle asks; if there are more, its parts ask fewer each
+// TUNED: primitives that a bundle asks; if there are more, its parts ask fewer each.
+constexpr int most_asked = 48, most_asked_for_shadows = 16;
 
 // Packs [begin, end) of a batch in one walk. False if it was given up: there are too many primitives for so many rays.
 // What has been found until then is right as far as it goes.
@@ -122,7 +123,7 @@ class ShadowBundle {
             });
         return all & ~open_;
     }
-    bool gave_up() const { return asked_ > most_asked; }
+    bool gave_up() const { return asked_ > most_asked_for_shadows; }
 
   private:
     void ask(std::uint32_t primitive, SearchCounts& counts) {
