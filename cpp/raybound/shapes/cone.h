@@ -51,9 +51,10 @@ inline Quadratic<T> cone_quadratic(const LocalRay<T>& ray, T radius, T slope) {
 template <class T>
 inline Span<T> cone_side_span(const LocalRay<T>& ray, T radius, T slope) {
     const Quadratic<T> q = cone_quadratic(ray, radius, slope);
+    const Mask<T> steep = q.a<T(0), widening = -(slope * ray.direction.z)> T(0);
+    if (none(is_real(q) | steep)) return no_span<T>();
     const Roots<T> roots = solve(q);
     Span<T> span = between(roots, 0);
-    const Mask<T> steep = q.a<T(0), widening = -(slope * ray.direction.z)> T(0);
     const Mask<T> enters = steep & widening, leaves = steep & !widening;
     span.t_in = select(enters, roots.high, select(leaves, -infinity<T>, roots.low));
     span.t_out = select(leaves, roots.low, select(enters, infinity<T>, roots.high));
@@ -65,7 +66,8 @@ inline Span<T> cone_side_span(const LocalRay<T>& ray, T radius, T slope) {
 
 template <class T>
 inline Span<T> cone_span(const LocalRay<T>& ray, T radius, T slope) {
-    return clip(cone_side_span(ray, radius, slope), cap_span(ray, radius));
+    const Span<T> side = cone_side_span(ray, radius, slope);
+    return none(side.hit) ? side : clip(side, cap_span(ray, radius));
 }
 
 template <class T>

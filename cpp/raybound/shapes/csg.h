@@ -34,6 +34,11 @@ struct Interval {
 };
 
 template <class T>
+inline Interval<T> select(Mask<T> mask, const Interval<T>& yes, const Interval<T>& no) {
+    return {select(mask, yes.in, no.in), select(mask, yes.out, no.out)};
+}
+
+template <class T>
 inline Interval<T> interval_of(const Span<T>& span, std::uint32_t node, const T& in_error, const T& out_error) {
     return {{span.t_in, in_error, int(node), span.face_in, span.in_ahead},
             {span.t_out, out_error, int(node), span.face_out, span.out_ahead}};

@@ -16,9 +16,14 @@ CsgPack::Arrays& CsgPack::arrays_of_this_thread() {
 }
 
 CsgPack::CsgPack(const Geometry& geometry, const Ray<W>& rays)
-    : geometry_(geometry), rays_(rays), parts_(arrays_of_this_thread().parts), stack_(arrays_of_this_thread().stack) {
+    : geometry_(geometry),
+      rays_(rays),
+      parts_(arrays_of_this_thread().parts),
+      stack_(arrays_of_this_thread().stack),
+      intervals_(arrays_of_this_thread().intervals) {
     parts_.clear();
     stack_.clear();
+    intervals_.clear();
 }
 
 // Every boundary of an expression is one of a leaf: where none of these is ahead, none is.
@@ -27,10 +32,12 @@ CsgPack::FirstBoundary CsgPack::first_boundary(std::uint32_t root, std::uint32_t
     lanes = meet(root, lanes) & ahead_;
     if (lanes == 0) return first;
     const Part part = evaluate(root, lanes, true);
-    const Interval<W>& interval = part.interval;
-    first.boundary = select(interval.in.ahead, interval.in, interval.out);
-    first.hit = part.hit & any_ahead(interval);
-    first.entering = first.hit & bits(interval.in.ahead);
+    if (part.hit != 0) {
+        const Interval<W>& interval = intervals_[part.interval];
+        first.boundary = select(interval.in.ahead, interval.in, interval.out);
+        first.hit = part.hit & any_ahead(interval);
+        first.entering = first.hit & bits(interval.in.ahead);
+    }
     ask_one_by_one(root, part.several & lanes, first);
     return first;
 }
@@ -60,7 +67,7 @@ std::uint32_t CsgPack::meet(std::uint32_t index, std::uint32_t lanes) {
     const std::uint32_t met = node.kind == CsgKind::leaf ? meet_leaf(index, lanes) : meet_children(node, lanes);
     if (met != 0) return met;
     parts_.resize(begin);
-    parts_.emplace_back().node = index;
+    parts_.push_back({.node = index});
     return 0;
 }
 
@@ -78,18 +85,22 @@ std::uint32_t CsgPack::meet_children(const CsgNode& node, std::uint32_t lanes) {
 // Quadrics may have two intervals.
 std::uint32_t CsgPack::meet_leaf(std::uint32_t index, std::uint32_t lanes) {
     const Leaf& leaf = geometry_.leaves[geometry_.csg_nodes[index].first];
-    Part& part = parts_.emplace_back();
-    part.node = index;
     if (leaf.kind == LeafKind::quadric) {
+        parts_.push_back({.node = index, .several = lanes});
         ahead_ |= lanes;
-        return part.several = lanes;
+        return lanes;
     }
     const Span<W> span = leaf_span(geometry_, leaf, rays_);
-    part.hit = lanes & bits(span.hit);
-    if (part.hit == 0) return 0;
-    part.interval = interval_of(span, index, W(0), W(0));
-    ahead_ |= part.hit & any_ahead(part.interval);
-    return part.hit;
+    const std::uint32_t hit = lanes & bits(span.hit);
+    if (hit == 0) return 0;
+    parts_.push_back({.node = index, .hit = hit, .interval = add_interval(interval_of(span, index, W(0), W(0)))});
+    ahead_ |= hit & bits(span.in_ahead | span.out_ahead);
+    return hit;
+}
+
+std::uint32_t CsgPack::add_interval(const Interval<W>& interval) {
+    intervals_.push_back(interval);
+    return std::uint32_t(intervals_.size() - 1);
 }
 
 // Lanes may have boundaries of different faces: those of one face at a time.
@@ -134,51 +145,48 @@ CsgPack::Part CsgPack::unite(const CsgNode& node, std::uint32_t lanes, bool is_r
 // The children's intervals in order, lane by lane the one that is next. Errors can only tell where there is a gap, and
 // at the root only if something there is ahead.
 CsgPack::Part CsgPack::merge(std::size_t begin, std::uint32_t lanes, bool is_root) {
-    Part last = take_next(begin, lanes);
-    Interval<W>& all = last.interval;
-    std::uint32_t open = is_root ? last.hit & ~bits(all.in.ahead) : last.hit;
+    Interval<W> all, next;
+    Part merged;
+    merged.hit = take_next(begin, lanes, all);
+    std::uint32_t open = is_root ? merged.hit & ~bits(all.in.ahead) : merged.hit;
     while (open != 0) {
-        Part next = take_next(begin, open);
-        if (next.hit == 0) break;
-        std::uint32_t unsure = next.hit & bits(next.interval.in.t > all.out.t);
-        if (is_root) unsure &= bits(next.interval.in.ahead | all.out.ahead);
-        next.interval.in.error = all.out.error = W(0);
-        if (unsure != 0) {
-            next.interval.in.error = errors(next.interval.in, unsure);
-            all.out.error = errors(all.out, unsure);
+        const std::uint32_t more = take_next(begin, open, next);
+        if (more == 0) break;
+        std::uint32_t unsure = more & bits(next.in.t > all.out.t);
+        if (is_root) unsure &= bits(next.in.ahead | all.out.ahead);
+        next.in.error = errors(next.in, unsure);
+        all.out.error = errors(all.out, unsure);
+        const std::uint32_t touching = more & bits(touches(all, next)), apart = more & ~touching;
+        all.out = select(lanes_of<double>(touching), united_out(all, next), all.out);
+        open = touching;
+        if (!is_root) {
+            merged.several |= apart;
+        } else if (apart != 0) {
+            const std::uint32_t passed = apart & ~bits(all.out.ahead);
+            all = select(lanes_of<double>(passed), next, all);
+            open |= passed;
+            open &= ~bits(all.in.ahead);
         }
-        const std::uint32_t touching = next.hit & bits(touches(all, next.interval)), apart = next.hit & ~touching;
-        all.out = select(lanes_of<double>(touching), united_out(all, next.interval), all.out);
-        open &= next.hit;
-        if (!is_root) last.several |= apart;
-        if (!is_root || apart == 0) {
-            open &= ~apart;
-            continue;
-        }
-        open &= ~(apart & bits(all.out.ahead));
-        const PackMask<double> on = lanes_of<double>(apart & open);
-        all = {select(on, next.interval.in, all.in), select(on, next.interval.out, all.out)};
-        open &= ~bits(all.in.ahead);
     }
-    return last;
+    merged.interval = add_interval(all);
+    return merged;
 }
 
 // Takes the first interval of each lane out of the stack's.
-CsgPack::Part CsgPack::take_next(std::size_t begin, std::uint32_t lanes) {
-    Part first;
+std::uint32_t CsgPack::take_next(std::size_t begin, std::uint32_t lanes, Interval<W>& first) {
+    std::uint32_t found = 0;
     for (std::size_t i = begin; i < stack_.size(); ++i) {
-        const Part& part = stack_[i];
-        const std::uint32_t present = part.hit & lanes;
+        const Interval<W>& interval = intervals_[stack_[i].interval];
+        const std::uint32_t present = stack_[i].hit & lanes;
         if (present == 0) continue;
         const PackMask<double> before =
-            lanes_of<double>(present) & (lanes_of<double>(~first.hit) | begins_before(part.interval, first.interval));
-        first.interval = {select(before, part.interval.in, first.interval.in),
-                          select(before, part.interval.out, first.interval.out)};
-        first.hit |= present;
+            lanes_of<double>(present) & (lanes_of<double>(~found) | begins_before(interval, first));
+        first = found == 0 ? interval : select(before, interval, first);
+        found |= present;
     }
     for (std::size_t i = begin; i < stack_.size(); ++i)
-        stack_[i].hit &= ~(first.hit & bits(stack_[i].interval.in.node == first.interval.in.node));
-    return first;
+        stack_[i].hit &= ~(found & bits(intervals_[stack_[i].interval].in.node == first.in.node));
+    return found;
 }
 
 // First without errors, which can only make it less: most lanes end there.
@@ -187,25 +195,33 @@ CsgPack::Part CsgPack::intersect(const CsgNode& node, std::uint32_t lanes, bool 
     Part all = evaluate(geometry_.csg_children[node.first], lanes, false);
     stack_.push_back(all);
     for (std::uint32_t i = 1; i < node.count; ++i) {
-        stack_.push_back(evaluate(geometry_.csg_children[node.first + i], lanes, false));
-        const Part& child = stack_.back();
+        const Part child = evaluate(geometry_.csg_children[node.first + i], lanes, false);
+        stack_.push_back(child);
         all.several |= child.several;
         all.hit &= child.hit;
-        all.interval = overlap(all.interval, child.interval);
     }
-    all.hit &= bits(all.interval.in.t < all.interval.out.t) & ~all.several;
-    if (is_root) all.hit &= any_ahead(all.interval);
+    all.hit &= ~all.several;
     if (all.hit != 0) {
-        all.interval = stack_[begin].interval;
-        for (std::uint32_t i = 1; i < node.count && all.hit != 0; ++i) {
-            all.interval = overlap(all.interval, stack_[begin + i].interval);
-            all.interval.in.error = errors(all.interval.in, all.hit);
-            all.interval.out.error = errors(all.interval.out, all.hit);
-            all.hit &= bits(is_thick(all.interval));
-        }
+        const std::span<const Part> children(stack_.begin() + std::ptrdiff_t(begin), stack_.end());
+        Interval<W> common = intervals_[children[0].interval];
+        for (const Part& child : children.subspan(1)) common = overlap(common, intervals_[child.interval]);
+        all.hit &= bits(common.in.t < common.out.t);
+        if (is_root) all.hit &= any_ahead(common);
+        if (all.hit != 0) all.interval = add_interval(thick_overlap(children, all.hit));
     }
     stack_.resize(begin);
     return all;
+}
+
+Interval<W> CsgPack::thick_overlap(std::span<const Part> children, std::uint32_t& lanes) const {
+    Interval<W> common = intervals_[children[0].interval];
+    for (const Part& child : children.subspan(1)) {
+        common = overlap(common, intervals_[child.interval]);
+        common.in.error = errors(common.in, lanes);
+        common.out.error = errors(common.out, lanes);
+        lanes &= bits(is_thick(common));
+    }
+    return common;
 }
 
 }  // namespace raybound

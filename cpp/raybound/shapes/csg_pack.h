@@ -31,12 +31,13 @@ class CsgPack {
     // Errors are filled in where something depends on them.
     struct Part {
         std::uint32_t node = 0, hit = 0, several = 0;
-        Interval<W> interval;
+        std::uint32_t interval = 0;  // of intervals_
     };
 
     // Kept for the next rays: no allocation on their way.
     struct Arrays {
         std::vector<Part> parts, stack;
+        std::vector<Interval<W>> intervals;
     };
     static Arrays& arrays_of_this_thread();
 
@@ -46,17 +47,20 @@ class CsgPack {
 
     Part evaluate(std::uint32_t index, std::uint32_t lanes, bool is_root);
     Part unite(const CsgNode& node, std::uint32_t lanes, bool is_root);
+    std::uint32_t add_interval(const Interval<W>& interval);
     Part merge(std::size_t begin, std::uint32_t lanes, bool is_root);
-    Part take_next(std::size_t begin, std::uint32_t lanes);
+    std::uint32_t take_next(std::size_t begin, std::uint32_t lanes, Interval<W>& first);
     Part intersect(const CsgNode& node, std::uint32_t lanes, bool is_root);
+    Interval<W> thick_overlap(std::span<const Part> children, std::uint32_t& lanes) const;
     void ask_one_by_one(std::uint32_t root, std::uint32_t lanes, FirstBoundary& first) const;
 
     const Geometry& geometry_;
     const Ray<W>& rays_;
     std::vector<Part>& parts_;  // met, in the order of the expression; a node that no lane meets is one part
     std::vector<Part>& stack_;  // of children
-    std::size_t next_ = 0;      // of parts_
-    std::uint32_t ahead_ = 0;   // lanes with some leaf's boundary ahead
+    std::vector<Interval<W>>& intervals_;
+    std::size_t next_ = 0;     // of parts_
+    std::uint32_t ahead_ = 0;  // lanes with some leaf's boundary ahead
 };
 
 }  // namespace raybound

@@ -44,8 +44,9 @@ inline Mask<T> along_axis(const Vec3<T>& d) {
 template <class T>
 inline Span<T> cylinder_side_span(const LocalRay<T>& ray, T radius) {
     const Quadratic<T> q = cylinder_quadratic(ray, radius);
-    Span<T> span = between(solve(q), 0);
     const Mask<T> along = along_axis(ray.direction);
+    if (none(is_real(q) | along)) return no_span<T>();
+    Span<T> span = between(solve(q), 0);
     span.t_in = select(along, -infinity<T>, span.t_in);
     span.t_out = select(along, infinity<T>, span.t_out);
     span.hit = select(along, q.c.value <= T(0), span.hit);
@@ -59,7 +60,8 @@ inline Span<T> cap_span(const LocalRay<T>& ray, T height) {
 
 template <class T>
 inline Span<T> cylinder_span(const LocalRay<T>& ray, T radius) {
-    return clip(cylinder_side_span(ray, radius), cap_span(ray, radius));
+    const Span<T> side = cylinder_side_span(ray, radius);
+    return none(side.hit) ? side : clip(side, cap_span(ray, radius));
 }
 
 template <class T>

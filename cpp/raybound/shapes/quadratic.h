@@ -30,6 +30,11 @@ struct Roots {
     Mask<T> real, low_ahead, high_ahead;
 };
 
+template <class T>
+inline Mask<T> is_real(const Quadratic<T>& q) {
+    return q.discriminant.value >= T(0);
+}
+
 // Signs of roots follow from those of a, b and c alone, not from rounded roots. With P = c/a the product and
 // S = -2b/a the sum: P > 0 gives two roots of the sign of S, P < 0 one of each. Where |c| is within its band (the
 // origin is on the surface) one root is "at the origin" and not ahead; the other has the sign of S.
@@ -44,7 +49,7 @@ template <class T>
 #else
     const Mask<T> low = (product > q.c.band) & rising;
 #endif
-    return {q.discriminant.value >= T(0), low, Mask<T>((product < -q.c.band) | rising)};
+    return {is_real(q), low, Mask<T>((product < -q.c.band) | rising)};
 }
 
 // -(b +- sqrt(discriminant)) with the sign of b, where nothing cancels: this over a is one root, c over this the other.

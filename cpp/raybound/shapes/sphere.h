@@ -70,7 +70,8 @@ inline LocalRay<T> sphere_ray(const Vec3<T>& center, const Vec3<T>& origin, cons
 
 template <class T>
 inline Span<T> sphere_span(const LocalRay<T>& ray, T radius) {
-    return between(solve(sphere_quadratic(ray, radius)), 0);
+    const Quadratic<T> q = sphere_quadratic(ray, radius);
+    return none(is_real(q)) ? no_span<T>() : between(solve(q), 0);
 }
 
 // The part of it ahead of the origin: the same, but nothing is said of a line whose crossings lie behind, which most
