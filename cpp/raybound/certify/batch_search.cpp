@@ -13,7 +13,7 @@ namespace {
 constexpr double widest = 0.25;  // TUNED
 constexpr int fewest = 3;        // rays that a bundle pays for
 // TUNED: primitives that a bundle asks; if there are more, its parts ask fewer each.
-constexpr int most_asked = 48, most_asked_for_shadows = 16;
+constexpr int most_asked = 32, most_asked_for_shadows = 16;
 
 // Packs [begin, end) of a batch in one walk. False if it was given up: there are too many primitives for so many rays.
 // What has been found until then is right as far as it goes.
