@@ -137,11 +137,18 @@ void ExactTracer::complete(Face& face) const {
 void ExactTracer::meet_face(const RayBatch& rays, Level& level, Face& face) {
     const Order order(face.rays);
     level.entering &= ~face.rays;
-    for (int k = 0; k < order.packs(); ++k) meet_pack(rays, level, face, order.pack(k), order.lanes(k));
+    std::array<UV<FloatPack>, batch_packs> uv;
+    for (int k = 0; k < order.packs(); ++k)
+        uv[std::size_t(k)] = meet_pack(rays, level, face, order.pack(k), order.lanes(k));
+    const Material& material = *face.material;
+    for (int k = 0; k < order.packs(); ++k)
+        scatter(material.texture ? material.texture->lookup(uv[std::size_t(k)]) : Vec3<FloatPack>(material.diffuse),
+                order.pack(k), order.lanes(k), level.diffuse);
 }
 
-void ExactTracer::meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index,
-                            int count) {
+// Where the rays meet the face; returns its (u,v) there.
+UV<FloatPack> ExactTracer::meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index,
+                                     int count) {
     const Material& material = *face.material;
     const RayPack ray(gather(rays.origin, index), gather(rays.direction, index));
     FaceCrossings crossings{face.leaf, face.face, {}, face.entering ? 0xffu : 0u};
@@ -163,10 +170,10 @@ void ExactTracer::meet_pack(const RayBatch& rays, Level& level, const Face& face
     scatter(select(hit.entering, hit.shading, -hit.shading), index, count, level.shading);
     scatter(-ray.narrow.direction, index, count, level.view);
     scatter(offset_origin(hit.point, hit.point_error, side), index, count, level.outside.origin);
-    scatter(material.texture ? material.texture->lookup(hit.uv) : Vec3<FloatPack>(material.diffuse), index, count,
-            level.diffuse);
     if (material.transmit != Vec3f{}) scatter(hit.point_error, index, count, level.point_error);
     for (int lane = 0; lane < count; ++lane) level.outside.departed[index[lane]] = face.outer;
+    if (material.texture) material.texture->prefetch(hit.uv);
+    return hit.uv;
 }
 
 void ExactTracer::weigh_lights(Level& level, const Material& material, RaySet rays) {

@@ -58,7 +58,7 @@ class ExactTracer {
     void search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level);
     void find_faces(const RayBatch& rays, Level& level);
     void meet_face(const RayBatch& rays, Level& level, Face& face);
-    void meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index, int count);
+    UV<FloatPack> meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index, int count);
     void weigh_lights(Level& level, const Material& material, RaySet rays);
     void add_lights(Level& level, int packs) const;
     void settle_shadows(Level& level, std::size_t light, BatchRadiance& out);

@@ -113,14 +113,28 @@ FaceCells::FaceCells(Cells& cells, const Snapshot& scene, const FaceKey& key, co
     root_ = cells.make_cells(roots + root_number(key), 1);
 }
 
+// What one cell knows of a light, asked of the scene now if nobody has asked before.
+std::uint32_t FaceCells::entry_of(std::size_t light, std::uint32_t cell, const ChartRectangle& here,
+                                  std::uint32_t parent, const ChartRectangle& above) {
+    const std::uint32_t word = cell + Cells::cell_words_without_lights + cells_.slot_of_light_[light];
+    const std::uint32_t entry = cells_.arena_.word(word).load(std::memory_order_acquire);
+    if (entry != 0) return entry;
+    // A list is drawn from the parent's if all of the cell lies in the parent's patch: so it holds by itself.
+    const ChartCell area = chart_->cell(here);
+    if (parent != 0 && !is_within(area, chart_->cell(above))) parent = 0;
+    const Bundle bundle = light_bundle(chart_->patch(area), *scene_.lights()[light].light);
+    return verdict(cells_, scene_, bundle, key_.departed, word, parent, counts_);
+}
+
 CellAnswer FaceCells::ask(std::size_t light, const Vec3d& point, double footprint) {
-    CellAnswer answer;
-    if (root_ == Arena::none || !(footprint > 0)) {
-        answer.why = root_ == Arena::none ? NoCell::memory : NoCell::cost;
+    const auto no = [](NoCell why) {
+        CellAnswer answer;
+        answer.why = why;
         return answer;
-    }
-    const std::uint32_t slot = Cells::cell_words_without_lights + cells_.slot_of_light_[light];
-    ChartRectangle rectangle = chart_->whole();
+    };
+    if (root_ == Arena::none) return no(NoCell::memory);
+    if (!(footprint > 0)) return no(NoCell::cost);
+    ChartRectangle rectangle = chart_->whole(), above = rectangle;
     std::uint32_t cell = root_, parent = 0;
     bool first = true;  // of the cells that have lists
     for (;;) {
@@ -130,44 +144,25 @@ CellAnswer FaceCells::ask(std::size_t light, const Vec3d& point, double footprin
         cells_.touch(cell);
         if (length <= policy_.first_cells * footprint) {
             // (Whether the verdict is there already must not matter: which thread asks first is chance.)
-            if (first && u * v < policy_.least_rays * square(footprint)) {
-                answer.why = NoCell::cost;
-                return answer;
-            }
+            if (first && u * v < policy_.least_rays * square(footprint)) return no(NoCell::cost);
             first = false;
-            std::uint32_t entry = cells_.arena_.word(cell + slot).load(std::memory_order_acquire);
-            // A list is drawn from the parent's if all of the cell lies in the parent's patch: so it holds by itself.
-            const ChartCell here = chart_->cell(rectangle);
-            if (parent != 0 && !is_within(here, answer.cell)) parent = 0;
-            answer.cell = here;
-            if (entry == 0) {
-                const Bundle bundle = light_bundle(chart_->patch(here), *scene_.lights()[light].light);
-                entry = verdict(cells_, scene_, bundle, key_.departed, cell + slot, parent, counts_);
-            }
-            if (entry == 0) {
-                answer.why = NoCell::memory;
-                return answer;
-            }
+            const std::uint32_t entry = entry_of(light, cell, rectangle, parent, above);
+            if (entry == 0) return no(NoCell::memory);
             const auto list = entries::primitives(cells_.arena_, entry);
             const bool too_long = entries::is_too_long(entry) || list.size() > policy_.longest_list;
             const bool settled = entries::verdict(entry) != CellVerdict::list;
             if (settled || smallest || (!too_long && list.size() <= policy_.short_list)) {
-                answer.candidates = list;
-                answer.verdict = !settled && too_long ? CellVerdict::none : entries::verdict(entry);
-                answer.why = NoCell::crowded;
-                return answer;
+                if (!settled && too_long) return no(NoCell::crowded);
+                return {entries::verdict(entry), NoCell::crowded, list, chart_->cell(rectangle)};
             }
             parent = entry;
+            above = rectangle;
         } else if (smallest) {
-            answer.why = NoCell::cost;
-            return answer;
+            return no(NoCell::cost);
         }
         const Division ways = division(*chart_, rectangle);
         const std::uint32_t children = cells_.make_cells(cell, ways.ways());
-        if (children == Arena::none) {
-            answer.why = NoCell::memory;
-            return answer;
-        }
+        if (children == Arena::none) return no(NoCell::memory);
         const int index = part_of(rectangle, ways, point);
         cell = children + std::uint32_t(index) * cells_.cell_words();
         rectangle = part(rectangle, ways, index);

@@ -42,6 +42,9 @@ class FaceCells {
                                  std::uint32_t word, std::uint32_t parent, CellCounts& counts);
 
   private:
+    std::uint32_t entry_of(std::size_t light, std::uint32_t cell, const ChartRectangle& here, std::uint32_t parent,
+                           const ChartRectangle& above);
+
     Cells& cells_;
     const Snapshot& scene_;
     FaceKey key_;

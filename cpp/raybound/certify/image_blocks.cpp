@@ -62,6 +62,7 @@ ImageBlocks::Kept ImageBlocks::kept(int block) const {
 
 bool ImageBlocks::make_room(Record& record, std::size_t words) {
     if (words <= record.capacity) return true;
+    words += words / 4;  // other views need a little more, or less
     const std::size_t more = (words - record.capacity) * sizeof(std::uint64_t);
     if (bytes_.fetch_add(more, std::memory_order_relaxed) + more > limit_) {
         bytes_.fetch_sub(more, std::memory_order_relaxed);

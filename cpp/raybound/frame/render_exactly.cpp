@@ -50,6 +50,15 @@ void add_pack(const Camera& camera, const FrameBuffers& buffers, const Tile& blo
     });
 }
 
+// Blocks of a tile four by four, each four of them together: their rays begin in the same cells.
+constexpr int blocks_of_tile = (tile_size / block_size) * (tile_size / block_size);
+static_assert(blocks_of_tile == 16);
+Tile block_of(const Tile& tile, int k) {
+    const int column = (k & 1) | (k >> 1 & 2), row = (k >> 1 & 1) | (k >> 2 & 2);
+    const int x = tile.x0 + column * block_size, y = tile.y0 + row * block_size;
+    return {x, y, std::min(x + block_size, tile.x1), std::min(y + block_size, tile.y1)};
+}
+
 // Blocks row by row over the whole picture.
 int columns_of(const Camera& camera) { return (camera.width() + block_size - 1) / block_size; }
 int number_of(const Camera& camera, const Tile& block) {
@@ -102,13 +111,13 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
         [&](int item, int worker) {
             const Tile tile = tiling.tile(item);
             tracers[std::size_t(worker)].begin_tile();
-            for (int y = tile.y0; y < tile.y1; y += block_size)
-                for (int x = tile.x0; x < tile.x1; x += block_size) {
-                    const Tile block{x, y, std::min(x + block_size, tile.x1), std::min(y + block_size, tile.y1)};
-                    render_block(tracers[std::size_t(worker)], camera, buffers, cells.blocks(), block, cancelled,
-                                 work[std::size_t(worker)]);
-                    if (cancelled) return;
-                }
+            for (int k = 0; k < blocks_of_tile; ++k) {
+                const Tile block = block_of(tile, k);
+                if (block.x0 >= tile.x1 || block.y0 >= tile.y1) continue;
+                render_block(tracers[std::size_t(worker)], camera, buffers, cells.blocks(), block, cancelled,
+                             work[std::size_t(worker)]);
+                if (cancelled) return;
+            }
         },
         watch);
     statistics.seconds = time.seconds();

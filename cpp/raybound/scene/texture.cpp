@@ -26,15 +26,8 @@ T wrapped(T x, Wrap wrap) {
     }
 }
 
-// The two texels around a coordinate and the weight of the second.
-template <class T>
-struct Tap {
-    Index<T> first, second;
-    T weight;
-};
-
-template <class T>
-Tap<T> tap(T x, int size, Wrap wrap) {
+template <class T, class Tap>
+Tap tap(T x, int size, Wrap wrap) {
     const T position = wrapped(x, wrap) * T(size) - T(0.5);
     using std::floor;
     const T base = floor(position);
@@ -77,8 +70,25 @@ Vec3<T> Texture::texels(const Index<T>& x, const Index<T>& y) const {
 }
 
 template <class T>
+Texture::Tap<T> Texture::tap_u(const UV<T>& uv) const {
+    return tap<T, Tap<T>>(uv.u * T(scale_u_), width_, wrap_);
+}
+template <class T>
+Texture::Tap<T> Texture::tap_v(const UV<T>& uv) const {
+    return tap<T, Tap<T>>(uv.v * T(scale_v_), height_, wrap_);
+}
+
+// (A tap's two texels in a row are mostly in one line of the cache.)
+void Texture::prefetch(const UV<Pack<float>>& uv) const {
+    const auto u = tap_u(uv).first;
+    const auto v = tap_v(uv);
+    for (int lane = 0; lane < pack_width; ++lane)
+        for (const int row : {v.first[lane], v.second[lane]}) __builtin_prefetch(&texel(u[lane], row));
+}
+
+template <class T>
 Vec3<T> Texture::lookup(const UV<T>& uv) const {
-    const Tap<T> u = tap(uv.u * T(scale_u_), width_, wrap_), v = tap(uv.v * T(scale_v_), height_, wrap_);
+    const Tap<T> u = tap_u(uv), v = tap_v(uv);
     const T u1 = u.weight, u0 = T(1) - u1, v1 = v.weight, v0 = T(1) - v1;
     const Vec3<T> below = texels<T>(u.first, v.first) * u0 + texels<T>(u.second, v.first) * u1;
     const Vec3<T> above = texels<T>(u.first, v.second) * u0 + texels<T>(u.second, v.second) * u1;

@@ -26,8 +26,21 @@ class Texture {
     template <class T>
     Vec3<T> lookup(const UV<T>& uv) const;
 
+    // Begins to fetch from memory what a lookup will need.
+    void prefetch(const UV<Pack<float>>& uv) const;
+
   private:
     const Vec3f& texel(int x, int y) const { return texels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
+    // The two texels around a coordinate and the weight of the second.
+    template <class T>
+    struct Tap {
+        Index<T> first, second;
+        T weight;
+    };
+    template <class T>
+    Tap<T> tap_u(const UV<T>& uv) const;
+    template <class T>
+    Tap<T> tap_v(const UV<T>& uv) const;
     template <class T>
     Vec3<T> texels(const Index<T>& x, const Index<T>& y) const;
 
