@@ -51,8 +51,8 @@ def measure(
     number, each with the kinds "first" and "walk". A kind has "base" and "exact" (seconds a frame) and "speedup",
     medians over `repeat` runs, and "equal", whether all bytes were; in "threads" also "scaling" of both methods, over
     the first number; and in "frames" what the exact ones of the last run did: their number "frames", "searches" by kind
-    of ray, "base_searches" and "tests" (all a pixel), "made" (cells, a frame), "bytes" (at the end), and "certified",
-    the share of pixels that needed no search.
+    of ray, "base_searches" and "tests" (all a pixel), "made" (cells, a frame), "bytes" (at the end), "block_bytes"
+    (those of image blocks among them), and "certified", the share of pixels that needed no search.
     """
     result: dict[str, Any] = {
         "machine": dict(reporting.report()),
@@ -129,6 +129,7 @@ def _work(made: Made) -> dict[str, Any]:
         "tests": sum(stats["tests"] for stats in made.stats) / pixels,
         "made": _statistics.fmean(stats["cells"]["made"] for stats in made.stats),
         "bytes": made.stats[-1]["bytes"],
+        "block_bytes": made.block_bytes,
         "certified": certified / pixels,
     }
 

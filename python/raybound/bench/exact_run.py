@@ -33,6 +33,7 @@ class Made:
     seconds: dict[str, list[float]] = field(default_factory=lambda: {method: [] for method in METHODS})
     stats: list[dict[str, Any]] = field(default_factory=list)
     base_searches: int = 0
+    block_bytes: int = 0  # of what image blocks keep, after the last one
     equal: bool = True
 
     def mean(self, method: str) -> float:
@@ -66,6 +67,9 @@ class Run:
             made.seconds[method].append(time.perf_counter() - begin)
         made.base_searches += sum(frames["base"].stats["rays"].values())
         made.stats.append(frames["exact"].stats)
+        cells = self.renderers["exact"]._cells
+        assert cells is not None
+        made.block_bytes = cells.block_bytes
         made.equal &= same_bytes(frames["base"], frames["exact"])
 
     def walk(self, cameras: Sequence[Camera]) -> None:

@@ -88,7 +88,7 @@ def _work(result: dict[str, Any], kinds: list[str], title: str) -> Table:
             if kind in scene["frames"]:
                 rows.append([name, *([KINDS[kind]] if len(kinds) > 1 else []), *_done(scene["frames"][kind])])
     columns = ["scene", *(["frame"] if len(kinds) > 1 else []), "searches, base", "exact", *RAYS, "tests"]
-    return Table(f"{title}, a pixel", [*columns, "cells made", "MB", "certified"], rows)
+    return Table(f"{title}, a pixel", [*columns, "cells made", "cells, MB", "blocks, MB", "certified"], rows)
 
 
 def _done(frame: dict[str, Any]) -> list[str]:
@@ -98,6 +98,7 @@ def _done(frame: dict[str, Any]) -> list[str]:
         *(f"{count:.3f}" for count in (sum(counts), *counts)),
         f"{frame['tests']:.1f}",
         f"{frame['made']:.0f}",
-        f"{frame['bytes'] / 1e6:.1f}",
+        f"{(frame['bytes'] - frame['block_bytes']) / 1e6:.1f}",
+        f"{frame['block_bytes'] / 1e6:.1f}",
         f"{100 * frame['certified']:.1f} %",
     ]
