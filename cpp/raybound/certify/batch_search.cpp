@@ -170,21 +170,32 @@ float farthest(std::span<const NearestPack> hits) {
     return result;
 }
 
-Patch patch_around(const ShadowOrigins& from, RaySet rays) {
-    Boxd box;
-    while (rays != 0) box.extend(Vec3d(from.origin[take_first(rays)]));
-    return Patch::around(box);
-}
+namespace {
 
-Boxd range(const BatchVectors& values, int begin, int end) {
-    Bounds<FloatPack> packs{values.pack(begin), values.pack(begin)};
-    for (int k = begin + 1; k < end; ++k) packs.extend(values.pack(k));
+Boxd box_of(const Bounds<FloatPack>& packs) {
     Boxd box;
     for (int lane = 0; lane < pack_width; ++lane) {
         box.extend(Vec3d(lane_of(packs.lower, lane)));
         box.extend(Vec3d(lane_of(packs.upper, lane)));
     }
     return box;
+}
+
+}  // namespace
+
+Patch patch_around(const ShadowOrigins& from, RaySet rays) {
+    const Vec3<FloatPack> first(from.origin[std::countr_zero(rays)]);
+    Bounds<FloatPack> packs{first, first};
+    for (int k = 0; k < batch_packs; ++k)
+        if (const std::uint32_t lanes = lanes_of_pack(rays, k); lanes != 0)
+            packs.extend(select(lanes_of<float>(lanes), from.origin.pack(k), first));
+    return Patch::around(box_of(packs));
+}
+
+Boxd range(const BatchVectors& values, int begin, int end) {
+    Bounds<FloatPack> packs{values.pack(begin), values.pack(begin)};
+    for (int k = begin + 1; k < end; ++k) packs.extend(values.pack(k));
+    return box_of(packs);
 }
 
 RaySet closest_hits(const Snapshot& scene, const RayBatch& rays, BatchHits& hits, BatchMode& mode,

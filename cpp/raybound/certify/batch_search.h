@@ -36,7 +36,7 @@ struct ShadowOrigins {
     alignas(64) std::uint32_t departed[batch_size];
 };
 
-// A patch that holds the origins of some of the rays.
+// A patch that holds the origins of some of the rays (one at least).
 Patch patch_around(const ShadowOrigins& from, RaySet rays);
 
 // The rays from a pack's origins to a light.

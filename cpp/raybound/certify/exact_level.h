@@ -32,6 +32,7 @@ struct ExactTracer::Piece {
 
 // What one depth of the ray tree knows of its batch, ray by ray; not on the stack: trees may be a thousand deep.
 struct ExactTracer::Level {
+    int depth = 1;
     BatchHits hits;
     std::vector<Face> faces;
     std::uint8_t face_of[batch_size];

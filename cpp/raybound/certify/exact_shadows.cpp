@@ -5,7 +5,9 @@ namespace raybound {
 
 namespace {
 
-constexpr int cells_pay = 12;  // TUNED: rays of one batch on one face, from which on it is worth having cells
+// TUNED: rays of one batch on one face, from which on it is worth having cells. Those that mirrors and glass have sent
+// seldom come by the same place again, but for flat mirrors, which fill whole batches.
+constexpr int cells_pay = 16, cells_pay_behind_mirrors = 48;
 
 constexpr std::size_t piece_slots = 64;  // TUNED: more are hardly ever seen in one tile
 
@@ -42,7 +44,7 @@ void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all) {
     for (Face& face : level.faces) {
         const RaySet open = all & face.rays;
         if (open == 0) continue;
-        if (std::popcount(face.rays) >= cells_pay) {
+        if (std::popcount(face.rays) >= (level.depth == 1 ? cells_pay : cells_pay_behind_mirrors)) {
             rest |= ask_cells(level, face, light, open);
             continue;
         }

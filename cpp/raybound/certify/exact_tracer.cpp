@@ -34,6 +34,7 @@ ExactTracer::~ExactTracer() = default;
 ExactTracer::Level& ExactTracer::level_at(int depth) {
     if (levels_.size() < std::size_t(depth)) {
         levels_.push_back(std::make_unique<Level>());
+        levels_.back()->depth = depth;
         levels_.back()->lights.resize(scene_.lights().size());
     }
     return *levels_[std::size_t(depth) - 1];
