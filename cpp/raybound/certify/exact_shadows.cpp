@@ -5,9 +5,10 @@ namespace raybound {
 
 namespace {
 
-// TUNED: rays of one batch on one face, from which on it is worth having cells. Those that mirrors and glass have sent
-// seldom come by the same place again, but for flat mirrors, which fill whole batches.
-constexpr int cells_pay = 16, cells_pay_behind_mirrors = 48;
+// TUNED: rays of one batch on one face, from which on it is worth having cells. Those of curved faces are small and
+// know little; rays that mirrors and glass have sent seldom come by the same place again, but for flat mirrors, which
+// fill whole batches.
+constexpr int flat_cells_pay = 16, other_cells_pay = 48;
 
 constexpr std::size_t piece_slots = 64;  // TUNED: more are hardly ever seen in one tile
 
@@ -44,7 +45,9 @@ void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all) {
     for (Face& face : level.faces) {
         const RaySet open = all & face.rays;
         if (open == 0) continue;
-        if (std::popcount(face.rays) >= (level.depth == 1 ? cells_pay : cells_pay_behind_mirrors)) {
+        const bool flat = is_flat_face(scene_.geometry().leaves[face.leaf], face.face);
+        const int cells_pay = flat && level.depth == 1 ? flat_cells_pay : other_cells_pay;
+        if (std::popcount(face.rays) >= cells_pay) {
             rest |= ask_cells(level, face, light, open);
             continue;
         }

@@ -49,6 +49,11 @@ struct MeshInstance {
 
 inline bool is_sheet(const Leaf& leaf) { return leaf.kind == LeafKind::disk || leaf.kind == LeafKind::polygon; }
 
+// (What is curved of a solid is its face 0.)
+inline bool is_flat_face(const Leaf& leaf, int face) {
+    return face != 0 || leaf.kind == LeafKind::box || is_sheet(leaf);
+}
+
 enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection };
 
 // A node of a CSG expression: a leaf (index `first`) or `count` nodes that start at `first` in csg_children.

@@ -24,7 +24,7 @@ W distance_anywhere(const Geometry& geometry, const Leaf& leaf, int face, const 
 template <class W>
 W largest_curvature(const Geometry& geometry, const Leaf& leaf, int face) {
     if (leaf.kind == LeafKind::sphere && leaf.frame < 0) return W(1) + W(0x1p-20);
-    if (face != 0 || leaf.kind == LeafKind::box || is_sheet(leaf)) return W(0);
+    if (is_flat_face(leaf, face)) return W(0);
     const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
     const Vec3<W> rows(frame.row_norm);
     const W stretch = dot(rows, rows) * (W(1) + W(0x1p-20));
