@@ -25,6 +25,7 @@ struct ExactTracer::Piece {
     FaceCells cells;
     std::uint64_t tile, batch = 0;
     std::vector<CellAnswer> answers;  // by light: the last ones
+    std::uint32_t packs = 0;          // of the batch, whose points are known
     std::array<Vec3<DoublePack>, batch_packs> points{};
 
     Vec3d point(int index) const { return lane_of(points[std::size_t(index / pack_width)], index % pack_width); }

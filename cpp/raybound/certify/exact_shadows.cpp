@@ -77,12 +77,13 @@ ExactTracer::Piece& ExactTracer::piece_at(const Level& level, const Face& face, 
         slot.emplace(FaceCells(cells_, scene_, key, settings_.policy, counts_.cells), tile_);
         slot->answers.resize(scene_.lights().size());
     }
-    if (slot->batch != batch_ && slot->cells.is_supported())
-        for (int k = 0; k < batch_packs; ++k)
-            if (lanes_of_pack(face.rays, k) != 0)
-                slot->points[std::size_t(k)] =
-                    slot->cells.chart().coordinates(Vec3<DoublePack>(level.outside.origin.pack(k)));
+    if (slot->batch != batch_) slot->packs = 0;
     slot->batch = batch_;
+    for (int k = 0; k < batch_packs && slot->cells.is_supported(); ++k) {
+        if (lanes_of_pack(face.rays, k) == 0 || (slot->packs >> k & 1) != 0) continue;
+        slot->points[std::size_t(k)] = slot->cells.chart().coordinates(Vec3<DoublePack>(level.outside.origin.pack(k)));
+        slot->packs |= 1u << k;
+    }
     return *slot;
 }
 

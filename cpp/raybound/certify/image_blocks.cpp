@@ -1,6 +1,7 @@
 #include "raybound/certify/image_blocks.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace raybound {
 
@@ -22,7 +23,9 @@ void ImageBlocks::reset(std::size_t bytes) {
 
 void ImageBlocks::begin_view(std::span<const float> camera, int blocks) {
     const auto count = std::size_t(blocks);
-    if (std::ranges::equal(camera, camera_) && count == records_.size()) return;
+    const bool same = camera.size() == camera_.size() &&
+                      std::memcmp(camera.data(), camera_.data(), camera.size_bytes()) == 0;  // zeros have signs
+    if (same && count == records_.size()) return;
     camera_.assign(camera.begin(), camera.end());
     if (count != records_.size()) {
         records_ = std::vector<Record>();
