@@ -78,8 +78,8 @@ class Renderer:
     max_depth : int
         1..1000. The eye ray has depth 1; a surface at this depth spawns nothing.
     editable : bool
-        Whether to keep what the rays of the last frame have met, up to half of `memory` and about 14 bytes a pixel: the
-        next frame of the same camera then asks only about what edits have touched.
+        Whether to keep what the rays of the last frame have met, up to half of `memory`, some 15 to 25 bytes a pixel:
+        the next frame of the same camera then asks only about what edits have touched.
 
     Calls are safe from any thread, but one at a time: another one while a frame is rendered raises RuntimeError. As a
     context manager a renderer releases its memory at the end; afterwards calls raise RuntimeError. A renderer cannot be
