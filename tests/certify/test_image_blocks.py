@@ -185,3 +185,37 @@ def test_paths_after_edits_do_not_depend_on_threads() -> None:
             named(scene, "sculpture-top").move(rb.Transform.translate(0, 0, 0.3))
             frames.append(renderer.render(camera))
     assert all(frame == frames[0] for frame in frames[1:])
+
+
+def test_trees_too_large_for_a_record_are_asked_again() -> None:
+    scene = rb.Scene(ambient=0.1, background=(0.2, 0.3, 0.4))
+    for z in np.arange(16) * 0.3:  # each ray becomes two
+        corners = [(-50, -50, z), (50, -50, z), (50, 50, z), (-50, 50, z)]
+        scene.add(rb.Polygon(corners), rb.Material((0.1, 0.1, 0.1), reflect=0.4, transmit=0.5, ior=1.0))
+    camera = rb.Camera((0.3, 0.4, -5), (0, 0, 0), up=(0, 1, 0), fov=12, width=8, height=8)
+    for depth, kept in ((6, True), (14, False)):
+        with rb.Renderer(scene, max_depth=depth) as exact, rb.Renderer(scene, method="base", max_depth=depth) as base:
+            first = compare(exact, base, camera, Tally(), "first")
+            again = compare(exact, base, camera, Tally(), "again")
+            assert searches(again) == (0 if kept else searches(first))
+
+
+@pytest.mark.parametrize("memory", [800_000, 1_000_000, 2_000_000, 8_000_000])
+def test_what_has_changed_counts_as_memory(memory: int) -> None:
+    scene = rb.Scene(ambient=0.1)
+    rng = np.random.default_rng(1)
+    with scene.edit():
+        for position in rng.uniform(-20, 20, (20_000, 3)).tolist():
+            scene.add(rb.Sphere(position, 0.2), rb.Material((0.5, 0.5, 0.5)))
+    scene.add_light(rb.PointLight((0, 0, 40), intensity=(4, 4, 4)))
+    camera = rb.Camera((0, -60, 0), (0, 0, 0), width=40, height=30)
+    moved = scene.objects[0]
+    with both(scene, memory=memory) as (exact, base):
+        compare(exact, base, camera, Tally(), "first")
+        before = exact.memory_used
+        for step in range(10):
+            moved.move(rb.Transform.translate(0, 0, 0.01))
+            compare(exact, base, camera.orbit(step, 0), Tally(), "moved")
+            assert exact.memory_used <= memory
+        if memory == 8_000_000:
+            assert exact.memory_used - before >= 8 * 20_000 * 4  # a number of each primitive, eight times

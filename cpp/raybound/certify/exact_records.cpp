@@ -114,7 +114,11 @@ void ExactTracer::recall_lights(Level& level) {
 
 // Writes down what is known of a batch; the trees that it sends on follow.
 void ExactTracer::write(Level& level) {
-    if (!cells_.blocks().is_open()) return;
+    if (written_.size() > ImageBlocks::most_words) {
+        written_.clear();
+        writes_ = false;
+    }
+    if (!writes_) return;
     const Geometry& geometry = scene_.geometry();
     record::Batch batch{0, 0, std::uint16_t(level.faces.size()), 0, level.until, level.hit, level.alone};
     for (const Level::LightValue& light : level.lights) batch.lights = std::uint16_t(batch.lights + (light.asked != 0));
@@ -141,7 +145,7 @@ void ExactTracer::write(Level& level) {
 
 // The next tree belongs to rays of this batch.
 void ExactTracer::write_tree(Level& level, bool reflected) {
-    if (!cells_.blocks().is_open()) return;
+    if (!writes_) return;
     const Level::Spawned& next = reflected ? level.reflected : level.refracted;
     record::Parents parents{std::uint64_t(next.rays.count), {}};
     std::copy_n(next.parent, next.rays.count, parents.parent);

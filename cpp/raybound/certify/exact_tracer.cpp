@@ -49,6 +49,7 @@ void ExactTracer::begin_tile() {
 void ExactTracer::trace_eye(const RayBatch& rays, const ImageBlocks::Kept& kept, BatchRadiance& out) {
     changes_ = kept.changes;
     written_.clear();
+    writes_ = cells_.blocks().is_open();
     trace(rays, 1, &RayCounts::eye, kept.words, out);
 }
 

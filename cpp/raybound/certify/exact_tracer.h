@@ -91,6 +91,7 @@ class ExactTracer {
     std::uint64_t tile_ = 0, batch_ = 0;          // numbers of those at hand
     std::span<const SceneChange> changes_;        // since what is kept was written
     record::Words written_;
+    bool writes_ = false;
 };
 
 }  // namespace raybound

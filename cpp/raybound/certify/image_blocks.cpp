@@ -29,6 +29,7 @@ void ImageBlocks::begin_view(std::span<const float> camera, int blocks) {
     camera_.assign(camera.begin(), camera.end());
     if (count != records_.size()) {
         records_ = std::vector<Record>();
+        changes_.clear();  // no record is behind
         const std::size_t table = count * sizeof(Record);
         if (table < limit_) records_.resize(count);
         bytes_ = records_.size() * sizeof(Record);
@@ -38,9 +39,21 @@ void ImageBlocks::begin_view(std::span<const float> camera, int blocks) {
 
 void ImageBlocks::follow(SceneChange change) {
     if (change.is_empty() || records_.empty()) return;
-    changes_.push_back(std::move(change));
     ++version_;
-    if (changes_.size() > most_changes) changes_.erase(changes_.begin());
+    const std::size_t more = change.bytes();
+    while (!changes_.empty() && (changes_.size() == most_changes || !has_room(more))) drop_change();
+    if (!has_room(more)) {  // all records are dropped, then: they would be of no use
+        for (Record& record : records_) record = {};
+        bytes_ = records_.size() * sizeof(Record);
+        return;
+    }
+    bytes_ += more;
+    changes_.push_back(std::move(change));
+}
+
+void ImageBlocks::drop_change() {
+    bytes_ -= changes_.front().bytes();
+    changes_.erase(changes_.begin());
 }
 
 void ImageBlocks::follow_lights(const std::vector<LightRecord>& lights) {

@@ -36,6 +36,9 @@ class ImageBlocks {
     // By one thread for each block.
     void keep(int block, std::span<const std::uint64_t> words);
 
+    // TUNED: words of a record, beyond which it is not worth having: trees grow with the power of their depth.
+    static constexpr std::size_t most_words = std::size_t(1) << 17;
+
   private:
     struct Record {
         std::unique_ptr<std::uint64_t[]> words;
@@ -49,6 +52,8 @@ class ImageBlocks {
     };
 
     bool make_room(Record& record, std::size_t words);
+    bool has_room(std::size_t bytes) const { return bytes_.load(std::memory_order_relaxed) + bytes <= limit_; }
+    void drop_change();
 
     std::size_t limit_ = 0;
     std::atomic<std::size_t> bytes_ = 0;

@@ -4,6 +4,7 @@ namespace raybound {
 
 SceneChange::SceneChange(const std::vector<ObjectRecord>& before, const std::vector<Box>& bounds, const Snapshot& now) {
     const auto& objects = now.objects();
+    new_index.reserve(before.size());
     std::size_t i = 0, j = 0;
     while (i < before.size() || j < objects.size()) {
         const bool same = i < before.size() && j < objects.size() && before[i].id == objects[j].id;

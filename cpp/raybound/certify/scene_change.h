@@ -20,6 +20,10 @@ struct SceneChange {
     SceneChange(const std::vector<ObjectRecord>& before, const std::vector<Box>& bounds, const Snapshot& now);
 
     bool is_empty() const { return regions.empty() && !renumbered; }
+    std::size_t bytes() const {
+        return (new_index.capacity() + arrived.capacity()) * sizeof(std::uint32_t) +
+               (regions.capacity() + arrivals.capacity()) * sizeof(Box);
+    }
 
     // May something that has changed be met, or have been? `may_meet` tells of a box.
     template <class MayMeet>
