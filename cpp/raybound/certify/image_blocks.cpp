@@ -80,9 +80,9 @@ bool ImageBlocks::make_room(Record& record, std::size_t words) {
     if (words <= record.capacity) return true;
     words += words / 4;  // other views need a little more, or less
     const std::size_t more = (words - record.capacity) * sizeof(std::uint64_t);
-    if (bytes_.fetch_add(more, std::memory_order_relaxed) + more > limit_) {
-        bytes_.fetch_sub(more, std::memory_order_relaxed);
-        return false;
+    for (std::size_t used = bytes_.load(std::memory_order_relaxed);;) {
+        if (used + more > limit_) return false;
+        if (bytes_.compare_exchange_weak(used, used + more, std::memory_order_relaxed)) break;
     }
     record.words = std::make_unique_for_overwrite<std::uint64_t[]>(words);
     record.capacity = std::uint32_t(words);
