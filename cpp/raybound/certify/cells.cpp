@@ -48,16 +48,15 @@ void Cells::clear() {
     blocks_.reset(0);
     roots_ = std::vector<std::uint32_t>();
     bounds_ = std::vector<Box>();
+    tables_ = 0;
     slots_.clear();
     slot_of_light_.clear();
     content_ = nullptr;
     cells_ = 0;
 }
 
-std::size_t Cells::bytes() const {
-    return arena_.bytes() + roots_.capacity() * sizeof(std::uint32_t) + bounds_.capacity() * sizeof(Box) +
-           blocks_.bytes();
-}
+// (Anybody may ask at any time.)
+std::size_t Cells::bytes() const { return arena_.bytes() + tables_.load(std::memory_order_relaxed) + blocks_.bytes(); }
 
 // Tables of primitives count as memory, too: what is too little for them is enough for no cells.
 void Cells::begin_anew(const Snapshot& scene) {
@@ -66,6 +65,7 @@ void Cells::begin_anew(const Snapshot& scene) {
     most_primitives_ = primitives + primitives / 4 + 64;  // with room for objects that are added
     const std::size_t tables = most_primitives_ * (sizeof(std::uint32_t) + sizeof(Box));
     if (tables > memory_) return;
+    tables_ = tables;
     const std::size_t rest = memory_ - tables, blocks = keeps_blocks_ ? rest / 2 : 0;
     arena_.reset(rest - blocks);
     blocks_.reset(blocks);

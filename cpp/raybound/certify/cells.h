@@ -121,8 +121,9 @@ class Cells {
     bool keeps_blocks_;
     ImageBlocks blocks_;
     Arena arena_;
-    std::vector<std::uint32_t> roots_;  // by primitive: a record of root cells by face, piece and side
-    std::vector<Box> bounds_;           // of primitives
+    std::vector<std::uint32_t> roots_;     // by primitive: a record of root cells by face, piece and side
+    std::vector<Box> bounds_;              // of primitives
+    std::atomic<std::size_t> tables_ = 0;  // bytes of these two
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> slot_of_light_;
     ContentPointer content_;
