@@ -15,6 +15,15 @@ constexpr int fewest = 3;        // rays that a bundle pays for
 // TUNED: primitives that a bundle asks; if there are more, its parts ask fewer each.
 constexpr int most_asked = 32, most_asked_for_shadows = 16;
 
+Boxd box_of(const Bounds<FloatPack>& packs) {
+    Boxd box;
+    for (int lane = 0; lane < pack_width; ++lane) {
+        box.extend(Vec3d(lane_of(packs.lower, lane)));
+        box.extend(Vec3d(lane_of(packs.upper, lane)));
+    }
+    return box;
+}
+
 // Packs [begin, end) of a batch in one walk. False if it was given up: there are too many primitives for so many rays.
 // What has been found until then is right as far as it goes.
 bool search_bundle(const Snapshot& scene, const RayBatch& rays, const RayBundle& bundle, int begin, int end,
@@ -169,19 +178,6 @@ float farthest(std::span<const NearestPack> hits) {
     for (int lane = 0; lane < pack_width; ++lane) result = maximum(result, most[lane]);
     return result;
 }
-
-namespace {
-
-Boxd box_of(const Bounds<FloatPack>& packs) {
-    Boxd box;
-    for (int lane = 0; lane < pack_width; ++lane) {
-        box.extend(Vec3d(lane_of(packs.lower, lane)));
-        box.extend(Vec3d(lane_of(packs.upper, lane)));
-    }
-    return box;
-}
-
-}  // namespace
 
 Patch patch_around(const ShadowOrigins& from, RaySet rays) {
     const Vec3<FloatPack> first(from.origin[std::countr_zero(rays)]);

@@ -69,7 +69,8 @@ struct ExactTracer::Level {
     BatchRadiance seen;
 
     // What is kept of these rays, if it holds, and where what is kept next is written.
-    const std::uint64_t* kept = nullptr;
+    const std::uint64_t *kept = nullptr, *kept_lights = nullptr;
+    record::Batch kept_batch;
     bool same_ior = false;  // as when it was written
     std::size_t written = 0;
 

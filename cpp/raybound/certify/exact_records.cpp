@@ -44,7 +44,7 @@ bool ExactTracer::recall(const RayBatch& rays, const std::uint64_t* kept, Level&
             return bundle.may_meet(box, until, near);
         };
         for (const SceneChange& change : changes_)
-            if (SceneChange::any_met(change.arrivals, may_meet)) return false;
+            if (SceneChange::any_met(change.arrivals(), may_meet)) return false;
     }
     level.faces.clear();
     level.same_ior = true;
@@ -63,6 +63,8 @@ bool ExactTracer::recall(const RayBatch& rays, const std::uint64_t* kept, Level&
         const int i = take_first(rest);
         at = record::read(at, &level.hits[std::size_t(i / pack_width)].crossing_t.v[i % pack_width], 1);
     }
+    level.kept_lights = at;
+    level.kept_batch = batch;
     return true;
 }
 
@@ -85,11 +87,9 @@ bool ExactTracer::recall_face(const record::Face& from, Face& to) const {
 
 // What is known of lights that stand where they stood and whose shadows nothing has come into or left.
 void ExactTracer::recall_lights(Level& level) {
-    record::Batch batch;
-    const std::uint64_t* at = record::read(level.kept, &batch, 1);
-    at += batch.faces * record::words_of<record::Face> + std::size_t(std::popcount(batch.hit));
+    const std::uint64_t* at = level.kept_lights;
     const auto& places = cells_.blocks().light_places();
-    for (int k = 0; k < batch.lights; ++k) {
+    for (int k = 0; k < level.kept_batch.lights; ++k) {
         record::Light light;
         at = record::read(at, &light, 1);
         const std::uint64_t* reasons = at;
@@ -159,9 +159,7 @@ void ExactTracer::write_tree(Level& level, bool reflected) {
 // What is kept of the rays sent on, if they are the same.
 const std::uint64_t* ExactTracer::kept_tree(const Level& level, bool reflected) const {
     if (!level.kept || (!reflected && !level.same_ior)) return nullptr;
-    record::Batch batch;
-    record::read(level.kept, &batch, 1);
-    const std::uint32_t offset = reflected ? batch.reflected : batch.refracted;
+    const std::uint32_t offset = reflected ? level.kept_batch.reflected : level.kept_batch.refracted;
     if (offset == 0) return nullptr;
     record::Parents parents;
     const std::uint64_t* tree = record::read(level.kept + offset, &parents, 1);

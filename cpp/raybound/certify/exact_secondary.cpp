@@ -42,7 +42,7 @@ void ExactTracer::collect(Level& level, bool reflected) {
 }
 
 // local + reflect L(R) + transmit L(T), in this order.
-void ExactTracer::add_secondary(Level& level, int depth, BatchRadiance& out) {
+void ExactTracer::add_secondary(Level& level, BatchRadiance& out) {
     level.visit_materials([&](const Material& material, RaySet hits) {
         if (material.reflect != Vec3f{} || material.transmit != Vec3f{}) spawn(level, material, hits);
     });
@@ -52,7 +52,7 @@ void ExactTracer::add_secondary(Level& level, int depth, BatchRadiance& out) {
         if (next.rays.count == 0) continue;
         next.rays.pad();
         write_tree(level, reflected);
-        trace(next.rays, depth + 1, reflected ? &RayCounts::reflected : &RayCounts::refracted,
+        trace(next.rays, level.depth + 1, reflected ? &RayCounts::reflected : &RayCounts::refracted,
               kept_tree(level, reflected), level.seen);
         for (int c = 0; c < next.rays.count; ++c) {
             const int i = next.parent[c];

@@ -60,7 +60,7 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
     for (Level::LightValue& light : level.lights) light.forget();
     ++batch_;
     level.kept = kept && recall(rays, kept, level) ? kept : nullptr;
-    if (!level.kept) search(rays, depth, kind, level);
+    if (!level.kept) search(rays, kind, level);
     for (int i = 0; i < rays.count; ++i) out.searched[i] = level.alone >> i & 1 ? Searched::eye : Searched::no;
     std::fill_n(out.object, rays.count, -1);
     for (Face& face : level.faces) meet_face(rays, level, face);
@@ -73,7 +73,7 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
     add_lights(level, rays.packs());
     for (const Face& face : level.faces)
         for (RaySet rest = face.rays; rest != 0;) out.object[take_first(rest)] = face.object;
-    if (depth < settings_.max_depth) add_secondary(level, depth, out);
+    if (depth < settings_.max_depth) add_secondary(level, out);
     for (int k = 0; k < rays.packs(); ++k) {
         const PackMask<float> hit = lanes_of<float>(lanes_of_pack(level.hit, k));
         store(select(hit, level.t.pack(k), infinity<FloatPack>), out.t.value + k * pack_width);
@@ -93,10 +93,10 @@ void ExactTracer::add_lights(Level& level, int packs) const {
     }
 }
 
-void ExactTracer::search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level) {
+void ExactTracer::search(const RayBatch& rays, std::uint64_t RayCounts::* kind, Level& level) {
     SearchCounts counts;
     BatchMode one_off;
-    level.alone = closest_hits(scene_, rays, level.hits, depth == 1 ? eye_mode_ : one_off, counts);
+    level.alone = closest_hits(scene_, rays, level.hits, level.depth == 1 ? eye_mode_ : one_off, counts);
     counts_.rays.*kind += counts.searches;
     counts_.tests += counts.tests;
     find_faces(rays, level);

@@ -55,7 +55,7 @@ class ExactTracer {
     Level& level_at(int depth);
     void trace(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, const std::uint64_t* kept,
                BatchRadiance& out);
-    void search(const RayBatch& rays, int depth, std::uint64_t RayCounts::* kind, Level& level);
+    void search(const RayBatch& rays, std::uint64_t RayCounts::* kind, Level& level);
     void find_faces(const RayBatch& rays, Level& level);
     void meet_face(const RayBatch& rays, Level& level, Face& face);
     UV<FloatPack> meet_pack(const RayBatch& rays, Level& level, const Face& face, const std::uint8_t* index, int count);
@@ -67,7 +67,7 @@ class ExactTracer {
     Piece& piece_at(const Level& level, const Face& face, int index);
     const CellAnswer& ask(const Level& level, Piece& piece, std::size_t light, int index);
     void test_candidates(Level& level, std::size_t light, RaySet rays, const CellAnswer& answer);
-    void add_secondary(Level& level, int depth, BatchRadiance& out);
+    void add_secondary(Level& level, BatchRadiance& out);
     void spawn(Level& level, const Material& material, RaySet hits);
     void collect(Level& level, bool reflected);
     void complete(Face& face) const;

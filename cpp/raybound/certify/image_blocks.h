@@ -31,7 +31,7 @@ class ImageBlocks {
     // For a light's index, the number of the place that it shines from: another one when it moves.
     const std::vector<std::uint32_t>& light_places() const { return places_; }
 
-    bool is_open() const { return limit_ > 0; }
+    bool is_open() const { return !records_.empty(); }
     Kept kept(int block) const;
     // By one thread for each block.
     void keep(int block, std::span<const std::uint64_t> words);

@@ -22,12 +22,11 @@ SceneChange::SceneChange(const std::vector<ObjectRecord>& before, const std::vec
             ++i;
         }
         if (!gone) {
-            arrivals.push_back(now.geometry().primitives[j].bounds);
             arrived.push_back(std::uint32_t(j));
             ++j;
         }
     }
-    regions.insert(regions.end(), arrivals.begin(), arrivals.end());
+    for (const std::uint32_t primitive : arrived) regions.push_back(now.geometry().primitives[primitive].bounds);
 }
 
 bool casts_same_shadows(const Light& a, const Light& b) {

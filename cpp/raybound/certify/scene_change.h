@@ -1,6 +1,7 @@
 // What an edit changes for rays: which primitives have gone, come or moved, and what has stayed under which number.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "raybound/scene/snapshot.h"
@@ -9,9 +10,8 @@ namespace raybound {
 
 struct SceneChange {
     std::vector<std::uint32_t> new_index;  // of primitives by their index before; none: gone, or moved
-    std::vector<Box> regions;              // of those that have changed, before and after
+    std::vector<Box> regions;              // of those that have changed, before; then of those that arrived
     std::vector<std::uint32_t> arrived;    // primitives, by their new index: added or moved
-    std::vector<Box> arrivals;             // their bounds
     bool renumbered = false;
 
     static constexpr std::uint32_t none = 0xffffffffu;
@@ -19,15 +19,15 @@ struct SceneChange {
     // `before`: the objects and the bounds of their primitives.
     SceneChange(const std::vector<ObjectRecord>& before, const std::vector<Box>& bounds, const Snapshot& now);
 
+    std::span<const Box> arrivals() const { return std::span(regions).last(arrived.size()); }
     bool is_empty() const { return regions.empty() && !renumbered; }
     std::size_t bytes() const {
-        return (new_index.capacity() + arrived.capacity()) * sizeof(std::uint32_t) +
-               (regions.capacity() + arrivals.capacity()) * sizeof(Box);
+        return (new_index.capacity() + arrived.capacity()) * sizeof(std::uint32_t) + regions.capacity() * sizeof(Box);
     }
 
     // May something that has changed be met, or have been? `may_meet` tells of a box.
     template <class MayMeet>
-    static bool any_met([[maybe_unused]] const std::vector<Box>& boxes, [[maybe_unused]] const MayMeet& may_meet) {
+    static bool any_met([[maybe_unused]] std::span<const Box> boxes, [[maybe_unused]] const MayMeet& may_meet) {
 #ifdef RAYBOUND_SABOTAGE_INVALIDATION
         return false;  // the sabotage build: what has changed is not asked about
 #else

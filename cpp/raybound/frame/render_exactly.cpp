@@ -11,11 +11,32 @@ namespace {
 constexpr int block_size = 8;
 static_assert(block_size * block_size == batch_size && tile_size % block_size == 0);
 
-// What was searched for, as pixels tell it: by Searched.
-constexpr Reason reasons[] = {Reason::none,       Reason::silhouette, Reason::shadow,     Reason::reflection,
-                              Reason::refraction, Reason::cost,       Reason::unsupported};
-constexpr Path paths[] = {Path::exact,   Path::traced,  Path::partial, Path::partial,
-                          Path::partial, Path::partial, Path::partial};
+// What was searched for, as pixels tell it.
+Reason reason_of(Searched searched) {
+    switch (searched) {
+        case Searched::no:
+            return Reason::none;
+        case Searched::eye:
+            return Reason::silhouette;
+        case Searched::shadow:
+            return Reason::shadow;
+        case Searched::reflection:
+            return Reason::reflection;
+        case Searched::refraction:
+            return Reason::refraction;
+        case Searched::cost:
+            return Reason::cost;
+        case Searched::unsupported:
+            return Reason::unsupported;
+    }
+    return Reason::none;
+}
+
+Path path_of(Searched searched, std::int32_t object) {
+    if (object < 0) return Path::background;
+    if (searched == Searched::no) return Path::exact;
+    return searched == Searched::eye ? Path::traced : Path::partial;
+}
 
 // What a worker needs for one block, apart from its tracer.
 struct BlockRays {
@@ -60,9 +81,9 @@ Tile block_of(const Tile& tile, int k) {
 }
 
 // Blocks row by row over the whole picture.
-int columns_of(const Camera& camera) { return (camera.width() + block_size - 1) / block_size; }
+int blocks_across(int pixels) { return (pixels + block_size - 1) / block_size; }
 int number_of(const Camera& camera, const Tile& block) {
-    return block.y0 / block_size * columns_of(camera) + block.x0 / block_size;
+    return block.y0 / block_size * blocks_across(camera.width()) + block.x0 / block_size;
 }
 
 void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffers, ImageBlocks& blocks,
@@ -82,9 +103,8 @@ void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffe
     for (int k = 0; k < rays.count; ++k) {
         const std::size_t at = work.pixel[std::size_t(k)];
         buffers.image[at] = seen.radiance[k];
-        const auto searched = std::size_t(seen.searched[k]);
-        buffers.path[at] = std::uint8_t(seen.object[k] < 0 ? Path::background : paths[searched]);
-        buffers.reason[at] = std::uint8_t(reasons[searched]);
+        buffers.path[at] = std::uint8_t(path_of(seen.searched[k], seen.object[k]));
+        buffers.reason[at] = std::uint8_t(reason_of(seen.searched[k]));
         buffers.object_id[at] = seen.object[k];
         buffers.depth[at] = seen.t[k];
         buffers.error_bound[at] = 0;
@@ -102,8 +122,7 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
     for (int k = 0; k < threads; ++k) tracers.emplace_back(scene, cells, exact);
     std::vector<BlockRays> work(static_cast<std::size_t>(threads));
     const Tiling tiling(buffers, 1);
-    const int rows = (camera.height() + block_size - 1) / block_size;
-    cells.blocks().begin_view(camera.numbers(), columns_of(camera) * rows);
+    cells.blocks().begin_view(camera.numbers(), blocks_across(camera.width()) * blocks_across(camera.height()));
     const Stopwatch time;
     RenderStatistics statistics;
     statistics.threads = run_work(
