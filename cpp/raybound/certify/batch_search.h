@@ -15,6 +15,14 @@ struct SearchCounts {
 
 using BatchHits = std::array<NearestPack, batch_packs>;
 
+// What closest hits leave open: rays that went alone, and what a ray alone finds besides its hit. `special` rays have
+// found a state that is not the one they came with.
+struct BatchFindings {
+    RaySet alone = 0, touching = 0, special = 0;
+    std::uint32_t within[batch_size];  // the solid that each ray is inside of, on its way
+    float until = 0;                   // no ray has looked for hits beyond
+};
+
 // The farthest t; infinite while a ray has hit nothing.
 float farthest(std::span<const NearestPack> hits);
 
@@ -26,15 +34,25 @@ struct BatchMode {
     bool batches = true, packs = true;
 };
 
-// The closest hits of all rays, by bundles where rays are alike, else ray by ray; returns those that went alone.
-RaySet closest_hits(const Snapshot& scene, const RayBatch& rays, BatchHits& hits, BatchMode& mode,
-                    SearchCounts& counts);
+// The closest hits of all rays, by bundles where rays are alike, else ray by ray.
+void closest_hits(const Snapshot& scene, const RayBatch& rays, BatchHits& hits, BatchMode& mode, SearchCounts& counts,
+                  BatchFindings& findings);
 
-// Where rays to a light begin, and what they have left.
+// The same for one ray of the batch, alone.
+void search_alone(const Snapshot& scene, const RayBatch& rays, int index, BatchHits& hits, BatchFindings& findings);
+
+// Where rays to a light begin, and what they know.
 struct ShadowOrigins {
     BatchVectors origin;
-    alignas(64) std::uint32_t departed[batch_size];
+    BatchStates states;
 };
+
+// Which of the rays to a light are blocked by the solid that they are within.
+RaySet blocked_from_inside(const Snapshot& scene, const ShadowOrigins& from, const Light& light, RaySet rays);
+
+// Which lanes of a pack of such rays another primitive blocks.
+std::uint32_t blocked_lanes(const Snapshot& scene, const ShadowOrigins& from, const RayPack& rays, int pack,
+                            std::uint32_t primitive, std::uint32_t lanes);
 
 // A patch that holds the origins of some of the rays (one at least).
 Patch patch_around(const ShadowOrigins& from, RaySet rays);

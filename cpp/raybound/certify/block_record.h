@@ -16,7 +16,7 @@ struct Batch {
     std::uint32_t reflected, refracted;  // where these trees begin, in words from here; 0: nothing was sent on
     std::uint16_t faces, lights;
     float until;  // no ray looks for hits beyond
-    RaySet hit, alone;
+    RaySet hit, alone, special;  // (BatchFindings)
 };
 
 // Leaves are counted from the primitive's first one: others may come and go before it.

@@ -145,7 +145,7 @@ bool misses_leaf(const Asked& asked) {
     return separated(hull, asked.shaft, margin);
 }
 
-// An expression is missed if all parts of a union are, or one of an intersection.
+// An expression is missed if all parts of a union are, or one of an intersection, or the first of a difference.
 bool misses(const Asked& asked, std::uint32_t index) {
     const CsgNode& node = asked.geometry.csg_nodes[index];
     if (node.kind == CsgKind::leaf) {
@@ -153,6 +153,7 @@ bool misses(const Asked& asked, std::uint32_t index) {
         return misses_leaf(part);
     }
     const auto child = [&](std::uint32_t i) { return asked.geometry.csg_children[node.first + i]; };
+    if (node.kind == CsgKind::csg_difference) return misses(asked, child(0));
     const bool all = node.kind == CsgKind::csg_union;
     for (std::uint32_t i = 0; i < node.count; ++i)
         if (misses(asked, child(i)) != all) return !all;

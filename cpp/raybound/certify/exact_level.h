@@ -13,7 +13,8 @@ struct ExactTracer::Face {
     std::uint32_t primitive = 0, leaf = 0;
     std::int32_t face = 0, face_offset = 0;
     bool entering = false;
-    std::uint32_t outer = 0, inner = 0;  // what rays that leave on the viewer's side, and on the other, have left
+    bool closed = false;                 // the face of a solid
+    std::uint32_t outer = 0, inner = 0;  // what rays that leave on the viewer's side, or the other, have left for good
     std::int32_t object = -1;
     const Material* material = nullptr;
     RaySet rays = 0;
@@ -42,8 +43,8 @@ struct ExactTracer::Level {
     ShadowOrigins outside;
     BatchFloats t, way;  // from the ray's origin, and from the eye
     RaySet entering = 0, hit = 0;
-    RaySet alone = 0;  // rays that were searched for one by one
-    float until = 0;   // no ray has looked for hits beyond
+    BatchFindings found;
+    BatchFloats outside_ior;
 
     struct LightValue {
         BatchVectors value;                                   // what it adds where it is not blocked

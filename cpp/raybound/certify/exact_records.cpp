@@ -57,15 +57,26 @@ bool ExactTracer::recall(const RayBatch& rays, const std::uint64_t* kept, Level&
         level.add(face);
     }
     level.hit = batch.hit;
-    level.alone = batch.alone;
-    level.until = batch.until;
+    level.found.alone = batch.alone;
+    level.found.until = batch.until;
     for (RaySet rest = level.hit; rest != 0;) {
         const int i = take_first(rest);
         at = record::read(at, &level.hits[std::size_t(i / pack_width)].crossing_t.v[i % pack_width], 1);
     }
     level.kept_lights = at;
     level.kept_batch = batch;
+    recall_states(rays, batch.special, level);
     return true;
+}
+
+// What rays are within is what they came with, but for special ones, which are asked again. (What they enter may have
+// another index of refraction outside.)
+void ExactTracer::recall_states(const RayBatch& rays, RaySet special, Level& level) const {
+    BatchFindings& found = level.found;
+    std::copy_n(rays.states.within, rays.packs() * pack_width, found.within);
+    found.touching = found.special = 0;
+    if (special != 0) level.same_ior = false;
+    while (special != 0) search_alone(scene_, rays, take_first(special), level.hits, found);
 }
 
 // False if the primitive has gone.
@@ -120,7 +131,8 @@ void ExactTracer::write(Level& level) {
     }
     if (!writes_) return;
     const Geometry& geometry = scene_.geometry();
-    record::Batch batch{0, 0, std::uint16_t(level.faces.size()), 0, level.until, level.hit, level.alone};
+    record::Batch batch{0, 0, std::uint16_t(level.faces.size()), 0, level.found.until,
+                        level.hit, level.found.alone, level.found.special};
     for (const Level::LightValue& light : level.lights) batch.lights = std::uint16_t(batch.lights + (light.asked != 0));
     level.written = record::append(written_, &batch, 1);
     for (const Face& face : level.faces) {

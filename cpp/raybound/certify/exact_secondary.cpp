@@ -11,7 +11,7 @@ void ExactTracer::spawn(Level& level, const Material& material, RaySet hits) {
         const std::uint8_t* index = order.pack(k);
         const SecondaryRays<FloatPack> next =
             secondary_rays(material, -gather(level.view, index), gather(level.shading, index),
-                           lanes_of<float>(gather(level.entering, index)));
+                           lanes_of<float>(gather(level.entering, index)), gather(level.outside_ior, index));
         scatter(next.reflect, index, order.lanes(k), level.reflected.weight_of_hit);
         scatter(next.reflected, index, order.lanes(k), level.reflected.direction_of_hit);
         if (material.transmit == Vec3f{}) continue;
@@ -35,8 +35,10 @@ void ExactTracer::collect(Level& level, bool reflected) {
             next.weight.set(next.rays.count, weight);
             const Vec3f origin = reflected ? level.outside.origin[i]
                                            : offset_origin(level.point[i], level.point_error[i], -level.side[i]);
-            next.rays.add(origin, make_ray(origin, next.direction_of_hit[i]).direction, level.way[i],
-                          reflected ? face.outer : face.inner);
+            const Departures leaving = departures_of(level, face, i);
+            const Departure& from = reflected ? leaving.outer : leaving.inner;
+            next.rays.add(origin, make_ray(origin, next.direction_of_hit[i]).direction, level.way[i], from,
+                          gone_for_good(scene_.geometry(), from));
         }
     }
 }

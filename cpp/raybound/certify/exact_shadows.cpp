@@ -39,8 +39,11 @@ void ExactTracer::settle_shadows(Level& level, std::size_t light, BatchRadiance&
             mark(out.searched[take_first(each)], reason(NoCell(why)));
 }
 
-// From the lists of cells; what they do not know is searched for.
+// From the lists of cells; what they do not know is searched for. The solid that a ray is within comes first.
 void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all) {
+    const RaySet inside = blocked_from_inside(scene_, level.outside, *scene_.lights()[light].light, all);
+    level.lights[light].rays &= ~inside;
+    all &= ~inside;
     RaySet rest = 0;
     for (Face& face : level.faces) {
         const RaySet open = all & face.rays;
@@ -68,8 +71,11 @@ void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all) {
 
 ExactTracer::Piece& ExactTracer::piece_at(const Level& level, const Face& face, int index) {
     const Geometry& geometry = scene_.geometry();
-    const int number = Chart::piece_for(geometry, face.leaf, face.face, Vec3d(level.normal[index]));
-    const bool outward = face.entering || is_sheet(geometry.leaves[face.leaf]);
+    const Vec3d normal(level.normal[index]);
+    const int number = Chart::piece_for(geometry, face.leaf, face.face,
+                                        geometry.leaves[face.leaf].is_complement ? -normal : normal);
+    const Leaf& leaf = geometry.leaves[face.leaf];
+    const bool outward = is_sheet(leaf) || face.entering != leaf.is_complement;
     const FaceKey key{face.primitive, face.leaf, face.face, face.face_offset, number, outward, face.outer};
     if (pieces_.empty()) pieces_.resize(piece_slots);
     std::optional<Piece>& slot = pieces_[slot_of(key)];
@@ -134,7 +140,9 @@ void ExactTracer::test_candidates(Level& level, std::size_t light, RaySet rays, 
         const RayPack pack = shadow_rays(level.outside, *scene_.lights()[light].light, k);
         for (const std::uint32_t primitive : answer.candidates) {
             counts_.tests += std::uint64_t(std::popcount(lanes));
-            const std::uint32_t blocked = blocked_lanes(scene_.geometry(), primitive, pack, lanes);
+            const std::uint32_t asking = lanes & asking_lanes(level.outside.states, k, primitive);
+            if (asking == 0) continue;
+            const std::uint32_t blocked = blocked_lanes(scene_, level.outside, pack, k, primitive, asking);
             lit &= ~set_of_pack(blocked, k);
             lanes &= ~blocked;
             if (lanes == 0) break;

@@ -61,8 +61,9 @@ void ExactTracer::trace(const RayBatch& rays, int depth, std::uint64_t RayCounts
     ++batch_;
     level.kept = kept && recall(rays, kept, level) ? kept : nullptr;
     if (!level.kept) search(rays, kind, level);
-    for (int i = 0; i < rays.count; ++i) out.searched[i] = level.alone >> i & 1 ? Searched::eye : Searched::no;
+    for (int i = 0; i < rays.count; ++i) out.searched[i] = level.found.alone >> i & 1 ? Searched::eye : Searched::no;
     std::fill_n(out.object, rays.count, -1);
+    find_outside(level);
     for (Face& face : level.faces) meet_face(rays, level, face);
 
     level.visit_materials([&](const Material& material, RaySet hits) { weigh_lights(level, material, hits); });
@@ -96,7 +97,7 @@ void ExactTracer::add_lights(Level& level, int packs) const {
 void ExactTracer::search(const RayBatch& rays, std::uint64_t RayCounts::* kind, Level& level) {
     SearchCounts counts;
     BatchMode one_off;
-    level.alone = closest_hits(scene_, rays, level.hits, level.depth == 1 ? eye_mode_ : one_off, counts);
+    closest_hits(scene_, rays, level.hits, level.depth == 1 ? eye_mode_ : one_off, counts, level.found);
     counts_.rays.*kind += counts.searches;
     counts_.tests += counts.tests;
     find_faces(rays, level);
@@ -107,7 +108,6 @@ void ExactTracer::find_faces(const RayBatch& rays, Level& level) {
     level.hit = 0;
     for (int k = 0; k < rays.packs(); ++k) level.hit |= set_of_pack(level.hits[std::size_t(k)].hit, k);
     level.hit &= rays.all();
-    level.until = farthest(std::span(level.hits).first(std::size_t(rays.packs())));
     for (RaySet open = level.hit; open != 0;) {
         const int first = std::countr_zero(open);
         const NearestPack& pack = level.hits[std::size_t(first / pack_width)];
@@ -132,8 +132,33 @@ void ExactTracer::complete(Face& face) const {
     const ObjectRecord& object = scene_.objects()[geometry.primitives[face.primitive].object];
     face.object = object.id;
     face.material = object.material.get();
-    face.outer = departure(geometry, face.primitive, face.entering).primitive;
-    face.inner = departure(geometry, face.primitive, !face.entering).primitive;
+    const Primitive& primitive = geometry.primitives[face.primitive];
+    face.closed = is_closed(geometry, primitive);
+    face.outer = is_left_for_good(geometry, primitive, face.entering) ? face.primitive : Departure::none;
+    face.inner = is_left_for_good(geometry, primitive, !face.entering) ? face.primitive : Departure::none;
+}
+
+Departures ExactTracer::departures_of(const Level& level, const Face& face, int ray) const {
+    Nearest<float> nearest;
+    nearest.crossing.leaf = face.leaf;
+    nearest.crossing.face = face.face;
+    nearest.crossing.entering = face.entering;
+    nearest.primitive = face.primitive;
+    nearest.within = level.found.within[ray];
+    nearest.touching = level.found.touching >> ray & 1;
+    return departures(scene_.geometry(), nearest);
+}
+
+// The index of refraction around the rays' hits.
+void ExactTracer::find_outside(Level& level) const {
+    std::fill_n(level.outside_ior.value, batch_size, 1.0f);
+    for (RaySet rest = level.found.touching; rest != 0;) {
+        const int i = take_first(rest);
+        Nearest<float> nearest;
+        nearest.within = level.found.within[i];
+        nearest.touching = true;
+        level.outside_ior[i] = outside_ior(scene_, nearest);
+    }
 }
 
 void ExactTracer::meet_face(const RayBatch& rays, Level& level, Face& face) {
@@ -173,7 +198,10 @@ UV<FloatPack> ExactTracer::meet_pack(const RayBatch& rays, Level& level, const F
     scatter(-ray.narrow.direction, index, count, level.view);
     scatter(offset_origin(hit.point, hit.point_error, side), index, count, level.outside.origin);
     if (material.transmit != Vec3f{}) scatter(hit.point_error, index, count, level.point_error);
-    for (int lane = 0; lane < count; ++lane) level.outside.departed[index[lane]] = face.outer;
+    for (int lane = 0; lane < count; ++lane) {
+        const int i = index[lane];
+        level.outside.states.set(i, departures_of(level, face, i).outer, face.outer);
+    }
     if (material.texture) material.texture->prefetch(hit.uv);
     return hit.uv;
 }

@@ -71,9 +71,12 @@ class ExactTracer {
     void spawn(Level& level, const Material& material, RaySet hits);
     void collect(Level& level, bool reflected);
     void complete(Face& face) const;
+    Departures departures_of(const Level& level, const Face& face, int ray) const;
+    void find_outside(Level& level) const;
 
     // Records of blocks (exact_records.cpp).
     bool recall(const RayBatch& rays, const std::uint64_t* kept, Level& level);
+    void recall_states(const RayBatch& rays, RaySet special, Level& level) const;
     bool recall_face(const record::Face& from, Face& to) const;
     void recall_lights(Level& level);
     void write(Level& level);

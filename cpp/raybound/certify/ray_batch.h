@@ -46,29 +46,60 @@ struct BatchVectors {
     }
 };
 
+// What each ray knows of where it begins. What decides about a primitive, for packs: the solid that a ray is within, and
+// the one that it has left, for good or not.
+struct BatchStates {
+    alignas(64) std::uint32_t within[batch_size], gone[batch_size], left[batch_size];
+    Departure from[batch_size];
+
+    void set(int i, const Departure& departure, std::uint32_t left_for_good) {
+        from[i] = departure;
+        within[i] = departure.within;
+        gone[i] = left_for_good;
+        left[i] = left_for_good == Departure::none ? departure.left : Departure::none;
+    }
+};
+
+// The lanes of a pack that hold a primitive's number.
+inline std::uint32_t lanes_with(const std::uint32_t (&numbers)[batch_size], int pack, std::uint32_t primitive) {
+    PackVector<std::int32_t> lanes;
+    std::memcpy(&lanes, numbers + pack * pack_width, sizeof lanes);
+    return bits(PackMask<float>{lanes == std::int32_t(primitive)});
+}
+
+// The lanes of a pack that search for a primitive's crossing: not those that have left it for good, nor those that it is
+// known of how they leave it.
+inline std::uint32_t asking_lanes(const BatchStates& states, int pack, std::uint32_t primitive) {
+    return 0xffu & ~(lanes_with(states.gone, pack, primitive) | lanes_with(states.within, pack, primitive));
+}
+
+// The lanes of a pack that are inside of some solid.
+inline std::uint32_t lanes_within(const BatchStates& states, int pack) {
+    return 0xffu & ~lanes_with(states.within, pack, Departure::none);
+}
+
 // Directions are as rays have them (flushed).
 struct RayBatch {
     int count = 0;
     BatchVectors origin, direction;
-    BatchFloats travelled;                           // from the eye to the origin
-    alignas(64) std::uint32_t departed[batch_size];  // the primitive that each has left, or none
+    BatchFloats travelled;  // from the eye to the origin
+    BatchStates states;
 
     int packs() const { return (count + pack_width - 1) / pack_width; }
     RaySet all() const { return count == batch_size ? ~RaySet(0) : (RaySet(1) << count) - 1; }
-    void add(const Vec3f& o, const Vec3f& d, float way, std::uint32_t left) {
+    void add(const Vec3f& o, const Vec3f& d, float way, const Departure& from, std::uint32_t left_for_good) {
         origin.set(count, o);
         direction.set(count, d);
         travelled[count] = way;
-        departed[count++] = left;
+        states.set(count++, from, left_for_good);
     }
-    // Eight at once, where as many stand before as fill packs.
-    void add_pack(const Vec3<FloatPack>& o, const Vec3<FloatPack>& d, float way, std::uint32_t left) {
+    // Eight eye rays at once, where as many stand before as fill packs.
+    void add_pack(const Vec3<FloatPack>& o, const Vec3<FloatPack>& d, const Departure& eye) {
         const int k = count / pack_width;
         origin.set_pack(k, o);
         direction.set_pack(k, d);
-        store(FloatPack(way), travelled.value + count);
-        std::fill_n(departed + count, pack_width, left);
-        count += pack_width;
+        store(FloatPack(0), travelled.value + count);
+        for (int lane = 0; lane < pack_width; ++lane) states.set(count++, eye, Departure::none);
     }
     // Lanes out of use repeat the last ray.
     void pad() {
@@ -76,18 +107,11 @@ struct RayBatch {
             origin.set(k, origin[count - 1]);
             direction.set(k, direction[count - 1]);
             travelled[k] = travelled[count - 1];
-            departed[k] = departed[count - 1];
+            states.set(k, states.from[count - 1], states.gone[count - 1]);
         }
     }
     RayPack pack(int k) const { return RayPack(origin.pack(k), direction.pack(k)); }
 };
-
-// The lanes of a pack that have left a primitive.
-inline std::uint32_t departed_lanes(const std::uint32_t (&departed)[batch_size], int pack, std::uint32_t primitive) {
-    PackVector<std::int32_t> lanes;
-    std::memcpy(&lanes, departed + pack * pack_width, sizeof lanes);
-    return bits(PackMask<float>{lanes == std::int32_t(primitive)});
-}
 
 // Why a search of the scene was needed, the first reason first; no: none was.
 enum class Searched : std::uint8_t { no, eye, shadow, reflection, refraction, cost, unsupported };

@@ -35,7 +35,7 @@ FaceKey key_of_root(const Geometry& geometry, std::uint32_t primitive, std::uint
     const LeafFace at = p.is_csg ? leaf_of_face(geometry, p.root, face) : LeafFace{p.root, 0};
     FaceKey key{primitive,     at.leaf, face - at.face_offset, at.face_offset, int(root % roots_of_face / 2),
                 root % 2 == 0, 0};
-    key.departed = departure(geometry, primitive, key.outward).primitive;
+    key.departed = is_left_for_good(geometry, p, key.outward) ? primitive : Departure::none;
     return key;
 }
 

@@ -19,18 +19,16 @@ struct Departing {
 template <class T>
 Departing<T> depart(const Geometry& geometry, const Nearest<T>& nearest, const WideRay<T>& ray,
                     const Leaving& leaving) {
-    const auto left = [&](bool outward) {
-        return leaving.skips ? departure(geometry, nearest.primitive, outward) : Departure{};
-    };
+    const Departure left = leaving.skips ? departures(geometry, nearest).outer : Departure{};
     if (leaving.offsets == Offsets::bounded) {
         const SurfacePoint<T> hit = surface_point<T>(geometry, nearest.crossing, ray.wide, {});
         const Vec3<T> side = hit.entering ? hit.normal : -hit.normal;
-        return {offset_origin(hit.point, hit.point_error, side), side, left(hit.entering)};
+        return {offset_origin(hit.point, hit.point_error, side), side, left};
     }
     const PlainPoint<T> hit = estimate_point<T>(geometry, nearest.crossing, ray.narrow);
     const bool outward = !(dot(ray.narrow.direction, hit.normal) > T(0));
     const Vec3<T> side = outward ? hit.normal : -hit.normal;
-    return {epsilon_origin(hit.point, side, leaving.offsets), side, left(outward)};
+    return {epsilon_origin(hit.point, side, leaving.offsets), side, left};
 }
 
 template <class T>
@@ -57,7 +55,7 @@ Vec3<T> light_of(const Snapshot& scene, const Material& material, const Departin
 }
 
 template <class T>
-Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, Departure departed, const Leaving& leaving, int depth,
+Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed, const Leaving& leaving, int depth,
                Bounces& counts) {
     ++counts.rays;
     const Nearest<T> nearest = closest_hit(scene, ray, departed);

@@ -137,10 +137,11 @@ ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, 
 PrimaryHits primary_hits(const Snapshot& scene, const Camera& camera, int threads, const Watch& watch) {
     std::atomic<std::uint64_t> hits = 0;
     std::atomic<bool> cancelled = false;
+    const Departure eye = departure_at(scene, camera.eye());
     const auto search_row = [&](int y, int) {
         std::uint64_t found = 0;
         for (int x = 0; x < camera.width(); ++x)
-            found += closest_hit(scene, WideRay<float>(camera.eye(), camera.direction<float>(x, y))).hit;
+            found += closest_hit(scene, WideRay<float>(camera.eye(), camera.direction<float>(x, y)), eye).hit;
         hits += found;
     };
     const Stopwatch stopwatch;

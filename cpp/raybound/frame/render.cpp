@@ -15,10 +15,10 @@ namespace {
 // A pixel whose trace was cut short by a cancellation is not stored.
 template <class T>
 void trace_pixel(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, int x, int y, const Vec3f& direction,
-                 const Bvh::Frontier* from, const std::atomic<bool>& cancelled) {
+                 const Departure& eye, const Bvh::Frontier* from, const std::atomic<bool>& cancelled) {
     const std::size_t at = buffers.index(x, y);
     if (buffers.error_bound[at] == 0) return;
-    const EyeSample<T> sample = tracer.sample(Vec3<T>(camera.eye()), Vec3<T>(direction), from);
+    const EyeSample<T> sample = tracer.sample(Vec3<T>(camera.eye()), Vec3<T>(direction), eye, from);
     if (cancelled) return;
     buffers.image[at] = Vec3f(sample.radiance);
     buffers.path[at] = std::uint8_t(sample.object < 0 ? Path::background : Path::traced);
@@ -39,8 +39,8 @@ void copy_pixel(FrameBuffers& buffers, std::size_t from, std::size_t to) {
 constexpr int block_size = 8;  // TUNED: 4 to 16 measure alike
 
 template <class T>
-void render_block(Tracer<T>& tracer, const Snapshot& scene, const Camera& camera, FrameBuffers& buffers,
-                  const Tile& block, const std::atomic<bool>& cancelled) {
+void render_block(Tracer<T>& tracer, const Snapshot& scene, const Camera& camera, const Departure& eye,
+                  FrameBuffers& buffers, const Tile& block, const std::atomic<bool>& cancelled) {
     std::array<Vec3f, block_size * block_size> directions;
     SlabBundle bundle(camera.eye());
     auto next = directions.begin();
@@ -54,29 +54,29 @@ void render_block(Tracer<T>& tracer, const Snapshot& scene, const Camera& camera
     next = directions.begin();
     for (int y = block.y0; y < block.y1; ++y)
         for (int x = block.x0; x < block.x1; ++x) {
-            trace_pixel(tracer, camera, buffers, x, y, *next++, &frontier, cancelled);
+            trace_pixel(tracer, camera, buffers, x, y, *next++, eye, &frontier, cancelled);
             if (cancelled) return;
         }
 }
 
 template <class T>
-void render_blocks(Tracer<T>& tracer, const Snapshot& scene, const Camera& camera, FrameBuffers& buffers,
-                   const Tile& tile, const std::atomic<bool>& cancelled) {
+void render_blocks(Tracer<T>& tracer, const Snapshot& scene, const Camera& camera, const Departure& eye,
+                   FrameBuffers& buffers, const Tile& tile, const std::atomic<bool>& cancelled) {
     for (int y = tile.y0; y < tile.y1; y += block_size)
         for (int x = tile.x0; x < tile.x1; x += block_size) {
             const Tile block{x, y, std::min(x + block_size, tile.x1), std::min(y + block_size, tile.y1)};
-            render_block(tracer, scene, camera, buffers, block, cancelled);
+            render_block(tracer, scene, camera, eye, buffers, block, cancelled);
             if (cancelled) return;
         }
 }
 
 // One pixel of each block of stride x stride is traced, and copied to the others.
 template <class T>
-void render_strided(Tracer<T>& tracer, const Camera& camera, FrameBuffers& buffers, const Tile& tile, int stride,
-                    const std::atomic<bool>& cancelled) {
+void render_strided(Tracer<T>& tracer, const Camera& camera, const Departure& eye, FrameBuffers& buffers,
+                    const Tile& tile, int stride, const std::atomic<bool>& cancelled) {
     for (int y = tile.y0; y < tile.y1; y += stride)
         for (int x = tile.x0; x < tile.x1; x += stride) {
-            trace_pixel(tracer, camera, buffers, x, y, camera.direction<float>(x, y), nullptr, cancelled);
+            trace_pixel(tracer, camera, buffers, x, y, camera.direction<float>(x, y), eye, nullptr, cancelled);
             if (cancelled) return;
             const std::size_t at = buffers.index(x, y);
             for (int j = y; j < std::min(y + stride, tile.y1); ++j)
@@ -105,6 +105,7 @@ RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameB
     std::atomic<bool> cancelled = false;
     auto tracers = make_tracers<T>(scene, settings, cancelled);
     const Tiling tiling(buffers, settings.stride);
+    const Departure eye = departure_at(scene, camera.eye());
     const Stopwatch watch_time;
     RenderStatistics statistics;
     statistics.threads = run_work(
@@ -113,9 +114,9 @@ RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameB
             Tracer<T>& tracer = tracers[std::size_t(worker)];
             const Tile tile = tiling.tile(item);
             if (settings.stride == 1 && std::is_same_v<T, float>)
-                render_blocks(tracer, scene, camera, buffers, tile, cancelled);
+                render_blocks(tracer, scene, camera, eye, buffers, tile, cancelled);
             else
-                render_strided(tracer, camera, buffers, tile, settings.stride, cancelled);
+                render_strided(tracer, camera, eye, buffers, tile, settings.stride, cancelled);
         },
         watch);
     statistics.seconds = watch_time.seconds();
@@ -148,7 +149,7 @@ TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, 
     const auto work = [&](int item, int worker) {
         for (int i = item * chunk; i < std::min(count, (item + 1) * chunk) && !cancelled; ++i) {
             const auto at = std::size_t(i);
-            const auto sample = tracers[std::size_t(worker)].sample(origins[at], directions[at]);
+            const auto sample = tracers[std::size_t(worker)].sample(origins[at], directions[at], departure_at(scene, origins[at]));
             result.radiance[at] = sample.radiance;
             result.object_id[at] = sample.object;
             result.t[at] = sample.t;

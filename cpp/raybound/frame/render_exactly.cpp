@@ -49,7 +49,8 @@ struct BlockRays {
 constexpr int pack_columns = 4, pack_rows = 2;
 static_assert(pack_columns * pack_rows == pack_width);
 
-void add_pack(const Camera& camera, const FrameBuffers& buffers, const Tile& block, int x, int y, BlockRays& to) {
+void add_pack(const Camera& camera, const Departure& eye, const FrameBuffers& buffers, const Tile& block, int x, int y,
+              BlockRays& to) {
     float column[pack_width], row[pack_width];
     std::size_t at[pack_width];
     std::uint32_t wanted = 0;
@@ -63,11 +64,11 @@ void add_pack(const Camera& camera, const FrameBuffers& buffers, const Tile& blo
     const Vec3<FloatPack> directions = flushed(camera.direction_through(FloatPack::load(column), FloatPack::load(row)));
     if (wanted == 0xffu && to.rays.count % pack_width == 0) {
         std::ranges::copy(at, to.pixel.begin() + to.rays.count);
-        return to.rays.add_pack(Vec3<FloatPack>(camera.eye()), directions, 0, Departure::none);
+        return to.rays.add_pack(Vec3<FloatPack>(camera.eye()), directions, eye);
     }
     for_each_lane(wanted, [&](int lane) {
         to.pixel[std::size_t(to.rays.count)] = at[lane];
-        to.rays.add(camera.eye(), lane_of(directions, lane), 0, Departure::none);
+        to.rays.add(camera.eye(), lane_of(directions, lane), 0, eye, Departure::none);
     });
 }
 
@@ -86,12 +87,12 @@ int number_of(const Camera& camera, const Tile& block) {
     return block.y0 / block_size * blocks_across(camera.width()) + block.x0 / block_size;
 }
 
-void render_block(ExactTracer& tracer, const Camera& camera, FrameBuffers& buffers, ImageBlocks& blocks,
-                  const Tile& block, const std::atomic<bool>& cancelled, BlockRays& work) {
+void render_block(ExactTracer& tracer, const Camera& camera, const Departure& eye, FrameBuffers& buffers,
+                  ImageBlocks& blocks, const Tile& block, const std::atomic<bool>& cancelled, BlockRays& work) {
     RayBatch& rays = work.rays;
     rays.count = 0;
     for (int y = block.y0; y < block.y1; y += pack_rows)
-        for (int x = block.x0; x < block.x1; x += pack_columns) add_pack(camera, buffers, block, x, y, work);
+        for (int x = block.x0; x < block.x1; x += pack_columns) add_pack(camera, eye, buffers, block, x, y, work);
     if (rays.count == 0) return;
     rays.pad();
     const BatchRadiance& seen = work.seen;
@@ -122,6 +123,7 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
     for (int k = 0; k < threads; ++k) tracers.emplace_back(scene, cells, exact);
     std::vector<BlockRays> work(static_cast<std::size_t>(threads));
     const Tiling tiling(buffers, 1);
+    const Departure eye = departure_at(scene, camera.eye());
     cells.blocks().begin_view(camera.numbers(), blocks_across(camera.width()) * blocks_across(camera.height()));
     const Stopwatch time;
     RenderStatistics statistics;
@@ -133,7 +135,7 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
             for (int k = 0; k < blocks_of_tile; ++k) {
                 const Tile block = block_of(tile, k);
                 if (block.x0 >= tile.x1 || block.y0 >= tile.y1) continue;
-                render_block(tracers[std::size_t(worker)], camera, buffers, cells.blocks(), block, cancelled,
+                render_block(tracers[std::size_t(worker)], camera, eye, buffers, cells.blocks(), block, cancelled,
                              work[std::size_t(worker)]);
                 if (cancelled) return;
             }

@@ -111,6 +111,8 @@ Boxd shape_bounds(const Shape& shape, const Affine& placement) {
             box = shape_bounds(*shape.parts()[0], placement);
             for (const auto& part : shape.parts()) box = intersection(box, shape_bounds(*part, placement));
             return collapsed(box);
+        case ShapeKind::csg_difference:
+            return shape_bounds(*shape.parts()[0], placement);
         default:
             return frame_bounds(shape, placement * unit_frame(shape));
     }

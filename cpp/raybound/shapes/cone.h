@@ -70,6 +70,15 @@ inline Span<T> cone_span(const LocalRay<T>& ray, T radius, T slope) {
     return none(side.hit) ? side : clip(side, cap_span(ray, radius));
 }
 
+// (The nappes as for the span.)
+template <class T>
+inline Exit<T> cone_exit(const LocalRay<T>& ray, T radius, T slope) {
+    const Quadratic<T> q = cone_quadratic(ray, radius, slope);
+    const Mask<T> steep = q.a<T(0), widening = -(slope * ray.direction.z)> T(0);
+    const T side = select(steep, select(widening, infinity<T>, solve(q).low), last_root(q));
+    return earlier(Exit<T>{side, Index<T>(0)}, exit_of(cap_span(ray, radius)));
+}
+
 template <class T>
 inline Surface<T> cone_surface(const Vec3<T>& y, const Vec3<T>& d, int face, T radius, T slope, const Vec3<T>& error) {
     if (face != 0) return cap_surface(y, face, radius, error);

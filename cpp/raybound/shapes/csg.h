@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "raybound/shapes/boundary.h"
@@ -120,6 +121,9 @@ class CsgEvaluation {
         return nullptr;
     }
 
+    // All of them, on the whole line, once evaluated.
+    std::span<const Interval<T>> intervals() const { return stack_; }
+
     void evaluate(std::uint32_t index) {
         const CsgNode& node = geometry_.csg_nodes[index];
         switch (node.kind) {
@@ -129,6 +133,8 @@ class CsgEvaluation {
                 return unite(node);
             case CsgKind::csg_intersection:
                 return intersect(node);
+            case CsgKind::csg_difference:
+                return subtract(node);
         }
     }
 
@@ -171,6 +177,30 @@ class CsgEvaluation {
                 const Interval<T> both = overlap(x, y);
                 if (is_thick(both)) stack_.push_back(both);
                 ++(x.out.t < y.out.t ? a : b);
+            }
+            stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
+        }
+    }
+
+    // The first part's intervals, cut by those of each other part. What is left of one, thinner than its errors, is
+    // nothing: no skin stays where faces coincide.
+    void subtract(const CsgNode& node) {
+        const std::size_t begin = stack_.size();
+        evaluate(child(node, 0));
+        for (std::uint32_t i = 1; i < node.count && stack_.size() > begin; ++i) {
+            const std::size_t middle = stack_.size();
+            evaluate(child(node, i));
+            const std::size_t end = stack_.size();
+            for (std::size_t a = begin; a < middle; ++a) {
+                Interval<T> rest = stack_[a];
+                for (std::size_t b = middle; b < end; ++b) {
+                    const Interval<T> away = stack_[b];
+                    const Interval<T> before{rest.in, away.in}, after{away.out, rest.out};
+                    if (!(away.in.t < rest.out.t) || !(away.out.t > rest.in.t)) continue;
+                    if (is_thick(before)) stack_.push_back(before);
+                    rest = after;
+                }
+                if (is_thick(rest)) stack_.push_back(rest);
             }
             stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
         }

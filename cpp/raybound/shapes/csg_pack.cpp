@@ -71,14 +71,26 @@ std::uint32_t CsgPack::meet(std::uint32_t index, std::uint32_t lanes) {
     return 0;
 }
 
-// Some child of a union, all of an intersection.
+// Some child of a union, all of an intersection, the first of a difference. (Lanes that meet a difference have several
+// intervals, mostly: they are asked one by one.)
 std::uint32_t CsgPack::meet_children(const CsgNode& node, std::uint32_t lanes) {
+    if (node.kind == CsgKind::csg_difference) return meet_first(node, lanes);
     const bool is_union = node.kind == CsgKind::csg_union;
     std::uint32_t met = is_union ? 0 : lanes;
     for (std::uint32_t i = 0; i < node.count && (is_union || met != 0); ++i) {
         const std::uint32_t child = geometry_.csg_children[node.first + i];
         met = is_union ? met | meet(child, lanes) : meet(child, met);
     }
+    return met;
+}
+
+std::uint32_t CsgPack::meet_first(const CsgNode& node, std::uint32_t lanes) {
+    const std::size_t begin = parts_.size();
+    const std::uint32_t met = meet(geometry_.csg_children[node.first], lanes), index = std::uint32_t(&node - geometry_.csg_nodes.data());
+    parts_.resize(begin);
+    if (met == 0) return 0;
+    parts_.push_back({.node = index, .several = met});
+    ahead_ |= met;
     return met;
 }
 

@@ -43,6 +43,7 @@ class CsgPack {
 
     std::uint32_t meet(std::uint32_t index, std::uint32_t lanes);
     std::uint32_t meet_leaf(std::uint32_t index, std::uint32_t lanes);
+    std::uint32_t meet_first(const CsgNode& node, std::uint32_t lanes);
     std::uint32_t meet_children(const CsgNode& node, std::uint32_t lanes);
 
     Part evaluate(std::uint32_t index, std::uint32_t lanes, bool is_root);

@@ -65,6 +65,12 @@ inline Span<T> cylinder_span(const LocalRay<T>& ray, T radius) {
 }
 
 template <class T>
+inline Exit<T> cylinder_exit(const LocalRay<T>& ray, T radius) {
+    const T side = select(along_axis(ray.direction), infinity<T>, last_root(cylinder_quadratic(ray, radius)));
+    return earlier(Exit<T>{side, Index<T>(0)}, exit_of(cap_span(ray, radius)));
+}
+
+template <class T>
 inline Surface<T> cap_surface(const Vec3<T>& y, int face, T height, const Vec3<T>& error) {
     return axis_plane_surface(y, 2, face == 2 ? height : T(0), face == 2 ? T(1) : T(-1), error);
 }

@@ -185,18 +185,29 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
     return std::uint32_t(geometry.leaves.size() - 1);
 }
 
-std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement, std::int32_t& face) {
+CsgKind csg_kind(ShapeKind kind) {
+    if (kind == ShapeKind::csg_union) return CsgKind::csg_union;
+    return kind == ShapeKind::csg_intersection ? CsgKind::csg_intersection : CsgKind::csg_difference;
+}
+
+// `is_complement`: taken away, an odd number of times.
+std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement, std::int32_t& face,
+                      bool is_complement) {
     if (shape.kind() == ShapeKind::transformed)
-        return add_csg(geometry, *shape.parts()[0], placement * shape.transform(), face);
+        return add_csg(geometry, *shape.parts()[0], placement * shape.transform(), face, is_complement);
     CsgNode node;
     if (shape.parts().empty()) {
         node.face_offset = face;
         node.first = add_leaf(geometry, shape, placement);
+        geometry.leaves[node.first].is_complement = is_complement;
         face += shape.face_count();
     } else {
-        node.kind = shape.kind() == ShapeKind::csg_union ? CsgKind::csg_union : CsgKind::csg_intersection;
+        node.kind = csg_kind(shape.kind());
         std::vector<std::uint32_t> children;
-        for (const auto& part : shape.parts()) children.push_back(add_csg(geometry, *part, placement, face));
+        for (const auto& part : shape.parts()) {
+            const bool taken_away = node.kind == CsgKind::csg_difference && !children.empty();
+            children.push_back(add_csg(geometry, *part, placement, face, is_complement != taken_away));
+        }
         node.first = std::uint32_t(geometry.csg_children.size());
         node.count = std::uint32_t(children.size());
         geometry.csg_children.insert(geometry.csg_children.end(), children.begin(), children.end());
@@ -241,7 +252,7 @@ void replace_primitive(Geometry& geometry, std::uint32_t index, const Shape& sha
     primitive.is_csg = !inner.parts().empty();
     std::int32_t face = 0;
     primitive.root =
-        (primitive.is_csg ? add_csg(geometry, inner, map, face) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
+        (primitive.is_csg ? add_csg(geometry, inner, map, face, false) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
     primitive.bounds = primitive_bounds(geometry, inner, map, first_leaf);
 }
 

@@ -32,6 +32,7 @@ struct Frame {
 // is from the one the user described.
 struct Leaf {
     LeafKind kind = LeafKind::sphere;
+    bool is_complement = false;  // taken away by a CSG difference: its own outside is the object's inside
     std::int32_t frame = -1;
     std::uint32_t polygon = 0;  // index into polygons, quadrics or meshes
     float surface_error = 0;
@@ -54,7 +55,7 @@ inline bool is_flat_face(const Leaf& leaf, int face) {
     return face != 0 || leaf.kind == LeafKind::box || is_sheet(leaf);
 }
 
-enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection };
+enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection, csg_difference };
 
 // A node of a CSG expression: a leaf (index `first`) or `count` nodes that start at `first` in csg_children.
 struct CsgNode {
@@ -89,6 +90,13 @@ struct Geometry {
     }
     std::size_t bytes() const;
 };
+
+// Does the primitive enclose a volume? (All but disks, polygons and meshes with a border.)
+inline bool is_closed(const Geometry& geometry, const Primitive& primitive) {
+    if (primitive.is_csg) return true;
+    const Leaf& leaf = geometry.leaves[primitive.root];
+    return leaf.kind == LeafKind::mesh ? geometry.meshes[leaf.polygon].data->is_closed() : !is_sheet(leaf);
+}
 
 // Adds a placed shape as one primitive of `object`. Throws std::invalid_argument if it cannot be placed so.
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement);

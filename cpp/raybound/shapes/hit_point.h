@@ -151,7 +151,7 @@ inline SurfacePoint<T> rounded_point(const Geometry& geometry, const FaceHit<T>&
     hit.point = Vec3<T>(polished.point);
     const Vec3<W> rounding = absolute(Vec3<W>(hit.point) - polished.point);
     hit.point_error = round_up<T>(absolute(normal) * (distance + W(leaf.surface_error)) + rounding);
-    hit.normal = hit.shading = Vec3<T>(normal);
+    hit.normal = hit.shading = Vec3<T>(leaf.is_complement ? -normal : normal);
     hit.entering = Mask<T>(is_sheet(leaf) ? !(dot(ray.direction, normal) > W(0)) : crossing.entering);
     if (wanted.uv) hit.uv = leaf_uv(geometry, leaf, crossing.face, hit.point);
     return hit;

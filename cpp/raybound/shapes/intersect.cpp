@@ -55,16 +55,38 @@ Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& prim
 }
 
 template <class T>
-Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, const Asking<T>& asking) {
-    using W = Wide<T>;
-    const W end = ray.wide.t_max * (W(1) - gamma<W>(8));
-    if (!primitive.is_csg && geometry.leaves[primitive.root].kind == LeafKind::mesh)
-        return mesh_blocks<T>(geometry, primitive.root, ray.wide, end, asking.brute_force);
-    const Crossing<W> crossing = first_crossing(geometry, primitive, ray, asking);
+Wide<T> certain_end(const WideRay<T>& ray) {
+    return ray.wide.t_max * (Wide<T>(1) - gamma<Wide<T>>(8));
+}
+
+template <class T>
+Mask<T> is_before_end(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const WideRay<T>& ray) {
     if (none(crossing.hit) || !ray.wide.has_target) return crossing.hit;
+    const Wide<T> end = certain_end(ray);
     if (!(crossing.t < end)) return Mask<T>(false);
     return crossing.t + boundary_error(geometry, geometry.leaves[crossing.leaf], crossing.face, crossing.t, ray.wide) <
            end;
+}
+
+template <class T>
+Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, const Asking<T>& asking,
+               Blocking* how) {
+    if (!primitive.is_csg && geometry.leaves[primitive.root].kind == LeafKind::mesh)
+        return mesh_blocks<T>(geometry, primitive.root, ray.wide, certain_end(ray), asking.brute_force, how);
+    const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, ray, asking);
+    if (how) how->entering = crossing.entering;
+    return is_before_end(geometry, crossing, ray);
+}
+
+bool coincide(const Geometry& geometry, const Crossing<double>& a, const Crossing<double>& b, const Ray<double>& ray) {
+    const auto error = [&](const Crossing<double>& c) {
+        const Leaf& leaf = geometry.leaves[c.leaf];
+        const Surface<double> surface =
+            leaf_surface(geometry, leaf, c.face, ray.origin + ray.direction * c.t, ray.direction);
+        const Vec3d normal = unit_normal(geometry, leaf, surface, ray.direction);
+        return crossing_error<double>(geometry, {leaf, c.face, c.t, c.entering}, ray, surface, normal);
+    };
+    return abs(a.t - b.t) <= error(a) + error(b);
 }
 
 // Eight bounds instead of one, so that a ray sent back through the surface certainly has it ahead (D3, D8); and 2^-20
@@ -74,7 +96,7 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
                                    Wanted wanted) {
     using W = Wide<T>;
     const Leaf& leaf = geometry.leaves[crossing.leaf];
-    const BarycentricHit at = barycentric_hit(geometry, leaf, crossing.face, ray);
+    const BarycentricHit at = barycentric_hit(geometry, leaf, crossing.face, ray, crossing.t);
     SurfacePoint<T> hit;
     hit.t = T(crossing.t);
     hit.point = Vec3<T>(at.point);
@@ -85,7 +107,7 @@ SurfacePoint<T> mesh_surface_point(const Geometry& geometry, const Crossing<Wide
     hit.normal = Vec3<T>(at.normal);
     hit.shading = Vec3<T>(at.shading);
     if (wanted.uv) hit.uv = {T(at.uv.u), T(at.uv.v)};
-    hit.entering = at.entering;
+    hit.entering = crossing.entering;
     if (!wanted.t_error) return hit;
     const Surface<W> surface = leaf_surface(geometry, leaf, crossing.face, at.point, ray.direction);
     hit.t_error =
@@ -112,7 +134,8 @@ PlainPoint<T> estimate_point(const Geometry& geometry, const Crossing<Wide<T>>& 
     const Leaf& leaf = geometry.leaves[crossing.leaf];
     const Vec3<T> p = ray.origin + ray.direction * T(crossing.t);
     const Surface<T> surface = leaf_surface(geometry, leaf, crossing.face, p, ray.direction);
-    return {p, unit_normal(geometry, leaf, surface, ray.direction)};
+    const Vec3<T> normal = unit_normal(geometry, leaf, surface, ray.direction);
+    return {p, leaf.is_complement ? -normal : normal};
 }
 
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
@@ -126,8 +149,10 @@ template Crossing<double> first_crossing(const Geometry&, const Primitive&, cons
                                          const Asking<float>&);
 template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&,
                                          const Asking<double>&);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&);
+template bool is_before_end(const Geometry&, const Crossing<double>&, const WideRay<float>&);
+template bool is_before_end(const Geometry&, const Crossing<double>&, const WideRay<double>&);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&, Blocking*);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&, Blocking*);
 template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
 template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
 template PlainPoint<float> estimate_point(const Geometry&, const Crossing<double>&, const Ray<float>&);

@@ -49,10 +49,22 @@ template <class T>
 Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
                                  const Asking<T>& asking = {});
 
+// Does a crossing lie certainly before the ray's target, if it has one?
+template <class T>
+Mask<T> is_before_end(const Geometry& geometry, const Crossing<Wide<T>>& crossing, const WideRay<T>& ray);
+
+// The crossing that a primitive blocks a ray by.
+struct Blocking {
+    bool entering = false;
+};
+
 // Does the primitive block the ray, certainly after its origin and certainly before its target, if it has one?
 template <class T>
 Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-               const Asking<T>& asking = {});
+               const Asking<T>& asking = {}, Blocking* how = nullptr);
+
+// Do two crossings of a ray lie within their errors of each other, those of the surfaces as described included?
+bool coincide(const Geometry& geometry, const Crossing<double>& a, const Crossing<double>& b, const Ray<double>& ray);
 
 // A hit with its error bounds. `entering`: the ray comes from outside. For solids that is a matter of which crossing it
 // is, not of the normal's sign, which rounding may turn at a silhouette. The box point +- point_error holds a point of

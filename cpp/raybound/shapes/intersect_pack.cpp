@@ -42,13 +42,27 @@ Crossings cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<Doub
     return found;
 }
 
-std::uint32_t blocked_by_csg(const Geometry& geometry, std::uint32_t root, const RayPack& rays, std::uint32_t lanes) {
+BlockedLanes blocked_by_csg(const Geometry& geometry, std::uint32_t root, const RayPack& rays, std::uint32_t lanes) {
     CsgPack pack(geometry, rays.wide);
     const CsgPack::FirstBoundary first = pack.first_boundary(root, lanes);
-    if (!rays.wide.has_target || first.hit == 0) return first.hit;
+    if (!rays.wide.has_target || first.hit == 0) return {first.hit, first.hit & ~first.entering};
     const DoublePack &t = first.boundary.t, end = rays.wide.t_max * DoublePack(1 - gamma<double>(8));
     const std::uint32_t before = first.hit & bits(t < end);
-    return before & bits(t + pack.errors(first.boundary, before) < end);
+    const std::uint32_t blocked = before & bits(t + pack.errors(first.boundary, before) < end);
+    return {blocked, blocked & ~first.entering};
+}
+
+BlockedLanes blocked_one_by_one(const Geometry& geometry, const Primitive& primitive, const RayPack& rays,
+                                std::uint32_t lanes) {
+    BlockedLanes found;
+    for_each_lane(lanes, [&](int lane) {
+        const WideRay<float> ray(lane_of(rays.narrow, lane));
+        Blocking how;
+        if (!blocks(geometry, primitive, ray, {}, &how)) return;
+        found.blocked |= 1u << lane;
+        found.exits |= std::uint32_t(!how.entering) << lane;
+    });
+    return found;
 }
 
 // What is not convex: ray by ray. (The filter in float is worth its time for quadrics.)
@@ -111,20 +125,22 @@ std::uint32_t certainly_before(const Geometry& geometry, const Leaf& leaf, const
 
 }  // namespace
 
-void consider(const Geometry& geometry, std::uint32_t index, const RayPack& rays, std::uint32_t lanes,
-              NearestPack& best) {
+std::uint32_t consider(const Geometry& geometry, std::uint32_t index, const RayPack& rays, std::uint32_t lanes,
+                       const FloatPack& doubtful_from, NearestPack& best) {
     const Primitive& primitive = geometry.primitives[index];
     const BoxInterval<FloatPack> inside = slab_interval(primitive.bounds, rays.narrow, best.t);
     lanes &= bits(inside.near <= inside.far);
-    if (lanes == 0) return;
+    if (lanes == 0) return 0;
     const Crossings found = is_convex(geometry, primitive) ? cross_convex(geometry, primitive.root, rays.wide)
                             : primitive.is_csg             ? cross_csg(geometry, primitive.root, rays.wide, lanes)
                                                            : cross_one_by_one(geometry, primitive, rays, lanes, best.t);
     const FloatPack t = maximum(FloatPack(found.t), inside.near);
     lanes &= found.hit & bits((t < infinity<FloatPack>)&(t <= best.t));
+    const std::uint32_t doubtful = lanes & bits(t >= doubtful_from);
+    lanes &= ~doubtful;
     if (const std::uint32_t ties = lanes & best.hit & bits(t == best.t); ties != 0)
         lanes &= ~ties | first_in_rank(geometry, index, found, ties, best);
-    if (lanes == 0) return;
+    if (lanes == 0) return doubtful;
     const PackMask<float> chosen = lanes_of<float>(lanes);
     best.t = select(chosen, t, best.t);
     best.crossing_t = select(lanes_of<double>(lanes), found.t, best.crossing_t);
@@ -134,29 +150,55 @@ void consider(const Geometry& geometry, std::uint32_t index, const RayPack& rays
     take(chosen.lanes, found.face_offset, best.face_offset);
     best.hit |= lanes;
     best.entering = (best.entering & ~lanes) | (found.entering & lanes);
+    return doubtful;
 }
 
-std::uint32_t blocked_lanes(const Geometry& geometry, std::uint32_t index, const RayPack& rays, std::uint32_t lanes) {
+bool consider_one(const Geometry& geometry, std::uint32_t primitive, int lane, const Crossing<double>& crossing,
+                  float entry, float doubtful_from, NearestPack& best) {
+    const float t = maximum(float(crossing.t), entry);
+    if (!crossing.hit || !(t < infinity<float>) || t > best.t[lane]) return false;
+    if (t >= doubtful_from) return true;
+    const Rank mine = rank(geometry, primitive, crossing.face_offset + crossing.face);
+    if ((best.hit >> lane & 1) != 0 && t == best.t[lane] &&
+        !(mine < rank(geometry, best.primitive[lane], best.face_offset[lane] + best.face[lane])))
+        return false;
+    best.set(lane, primitive, crossing, t);
+    return false;
+}
+
+BlockedLanes blocked_lanes(const Geometry& geometry, std::uint32_t index, const RayPack& rays, std::uint32_t lanes) {
     const Primitive& primitive = geometry.primitives[index];
     const FloatPack reach = rays.narrow.has_target ? rays.narrow.t_max * FloatPack(1 + 0x1p-10f) : infinity<FloatPack>;
     const BoxInterval<FloatPack> inside = slab_interval(primitive.bounds, rays.narrow, reach);
     lanes &= bits(inside.near <= inside.far);
-    if (lanes == 0) return 0;
+    if (lanes == 0) return {};
     if (primitive.is_csg) return blocked_by_csg(geometry, primitive.root, rays, lanes);
-    if (!is_convex(geometry, primitive)) {
-        std::uint32_t blocked = 0;
-        for_each_lane(lanes, [&](int lane) {
-            const WideRay<float> ray(lane_of(rays.narrow, lane));
-            blocked |= std::uint32_t(blocks(geometry, primitive, ray)) << lane;
-        });
-        return blocked;
-    }
+    if (!is_convex(geometry, primitive)) return blocked_one_by_one(geometry, primitive, rays, lanes);
     const Crossings found = cross_convex(geometry, primitive.root, rays.wide);
     lanes &= found.hit;
-    if (!rays.narrow.has_target || lanes == 0) return lanes;
+    if (rays.narrow.has_target && lanes != 0) {
+        const DoublePack end = rays.wide.t_max * DoublePack(1 - gamma<double>(8));
+        lanes &= bits(found.t < end);
+        lanes = certainly_before(geometry, geometry.leaves[primitive.root], found, rays.wide, end, lanes);
+    }
+    return {lanes, lanes & ~found.entering};
+}
+
+LeavingPack leave_convex(const Geometry& geometry, std::uint32_t leaf, const RayPack& rays) {
+    const Exit<DoublePack> exit = leaf_exit(geometry, geometry.leaves[leaf], rays.wide);
+    const DoublePack zero(0.0);
+    return {select((exit.t > zero) & (exit.t < infinity<DoublePack>), exit.t, zero), exit.face};
+}
+
+std::uint32_t lanes_blocked_from_inside(const Geometry& geometry, std::uint32_t leaf, const RayPack& rays,
+                                        std::uint32_t lanes) {
+    const LeavingPack leaving = leave_convex(geometry, leaf, rays);
+    if (!rays.narrow.has_target) return lanes;
+    Crossings found;
+    found.t = leaving.t;
+    found.face = __builtin_convertvector(leaving.face.v, PackVector<std::int32_t>);
     const DoublePack end = rays.wide.t_max * DoublePack(1 - gamma<double>(8));
-    lanes &= bits(found.t < end);
-    return certainly_before(geometry, geometry.leaves[primitive.root], found, rays.wide, end, lanes);
+    return certainly_before(geometry, geometry.leaves[leaf], found, rays.wide, end, lanes & bits(leaving.t < end));
 }
 
 SurfacePoint<FloatPack> surface_points(const Geometry& geometry, const FaceCrossings& crossings,

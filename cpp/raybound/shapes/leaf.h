@@ -106,6 +106,30 @@ inline Span<T> leaf_span_ahead(const Geometry& geometry, const Leaf& leaf, const
     return leaf_span(geometry, leaf, ray);
 }
 
+// Where a ray that is inside a solid leaf leaves it, whatever its rounded origin says.
+template <class T>
+inline Exit<T> leaf_exit(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+    const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
+    if (leaf.frame < 0) {
+        if (leaf.kind == LeafKind::sphere) return sphere_exit(local, T(leaf.radius()));
+        return exit_of(box_span(local, Vec3<T>(leaf.first), Vec3<T>(leaf.second)));
+    }
+    const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
+    const T radius = T(frame.radius);
+    if constexpr (std::is_same_v<Mask<T>, bool>)  // (quadrics are asked ray by ray)
+        if (leaf.kind == LeafKind::quadric) return quadric_exit(geometry.quadrics[leaf.polygon], local);
+    switch (leaf.kind) {
+        case LeafKind::sphere:
+            return sphere_exit(local, radius);
+        case LeafKind::cylinder:
+            return cylinder_exit(local, radius);
+        case LeafKind::cone:
+            return cone_exit(local, radius, T(frame.slope));
+        default:
+            return exit_of(box_span(local, {-radius, -radius, -radius}, {radius, radius, radius}));
+    }
+}
+
 // What a line has inside of a quadric, which need not be convex.
 template <class T>
 inline Spans<T> quadric_leaf_spans(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {

@@ -1,6 +1,8 @@
 #include "raybound/shapes/mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -29,15 +31,18 @@ void check_normals(std::span<const Vec3f> normals) {
 struct Edge {
     std::uint64_t ends;  // the smaller index first
     std::uint32_t face;
+    bool rising;  // the face runs from the smaller index to the larger
     auto operator<=>(const Edge&) const = default;
 };
 
-// An edge belongs to one face, at a border, or to two.
-void check_edges(std::span<const Face> faces) {
+// All edges in order, with vertices numbered anew by number(index).
+template <class Number>
+std::vector<Edge> sorted_edges(std::span<const Face> faces, const Number& number) {
     std::vector<Edge> edges;
     edges.reserve(faces.size() * 3);
-    const auto add = [&](std::int32_t a, std::int32_t b, std::size_t face) {
-        edges.push_back({std::uint64_t(std::min(a, b)) << 32 | std::uint32_t(std::max(a, b)), std::uint32_t(face)});
+    const auto add = [&](std::int32_t from, std::int32_t to, std::size_t face) {
+        const std::uint32_t a = number(from), b = number(to);
+        edges.push_back({std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), std::uint32_t(face), a < b});
     };
     for (std::size_t i = 0; i < faces.size(); ++i) {
         add(faces[i].a, faces[i].b, i);
@@ -45,12 +50,61 @@ void check_edges(std::span<const Face> faces) {
         add(faces[i].c, faces[i].a, i);
     }
     std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+// An edge belongs to one face, at a border, or to two.
+void check_edges(std::span<const Edge> edges) {
     for (std::size_t i = 2; i < edges.size(); ++i)
         if (edges[i].ends == edges[i - 2].ends)
             refuse("faces must be manifold, faces " + std::to_string(edges[i - 2].face) + ", " +
                    std::to_string(edges[i - 1].face) + " and " + std::to_string(edges[i].face) +
                    " share the edge of vertices " + std::to_string(edges[i].ends >> 32) + " and " +
                    std::to_string(edges[i].ends & 0xffffffffu));
+}
+
+// Does each edge have as many faces that run along it one way as the other?
+bool are_balanced(std::span<const Edge> edges) {
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        int rising = 0;
+        for (; end < edges.size() && edges[end].ends == edges[begin].ends; ++end) rising += edges[end].rising ? 1 : -1;
+        if (rising != 0) return false;
+    }
+    return true;
+}
+
+// Numbers of vertices that are equal for those at one place: files part them where (u,v) or normals differ.
+std::vector<std::uint32_t> numbers_by_place(std::span<const Vec3f> vertices) {
+    const auto key = [&](std::uint32_t i) {
+        const Vec3f& v = vertices[i];
+        return std::array<float, 3>{v.x, v.y, v.z};
+    };
+    std::vector<std::uint32_t> order(vertices.size()), number(vertices.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (std::size_t k = 0; k < order.size(); ++k)
+        number[order[k]] = k > 0 && key(order[k]) == key(order[k - 1]) ? number[order[k - 1]] : order[k];
+    return number;
+}
+
+// Six times the volume that closed faces enclose.
+double enclosed_volume(const MeshData& mesh) {
+    const Vec3d middle(mesh.vertices().front());
+    double volume = 0;
+    for (std::size_t i = 0; i < mesh.faces().size(); ++i) {
+        const Corners<double> c = mesh.corners<double>(std::int32_t(i));
+        volume += dot(c.a - middle, area_vector(c));
+    }
+    return volume;
+}
+
+bool encloses_volume(const MeshData& mesh, std::span<const Edge> edges) {
+    if (!are_balanced(edges)) {
+        const std::vector<std::uint32_t> number = numbers_by_place(mesh.vertices());
+        if (!are_balanced(sorted_edges(mesh.faces(), [&](std::int32_t i) { return number[std::size_t(i)]; })))
+            return false;
+    }
+    return enclosed_volume(mesh) > 0;
 }
 
 Box box_of(const Corners<float>& corners) {
@@ -63,7 +117,7 @@ Box box_of(const Corners<float>& corners) {
 
 }  // namespace
 
-void MeshData::check() const {
+void MeshData::check() {
     if (vertices_.empty()) refuse("vertices must not be empty");
     if (faces_.empty()) refuse("faces must not be empty");
     if (faces_.size() >= std::size_t(Bvh::leaf_bit)) refuse("faces must be fewer than 2**31");
@@ -77,7 +131,9 @@ void MeshData::check() const {
     for (std::size_t i = 0; i < faces_.size(); ++i)
         if (area_vector(corners<double>(std::int32_t(i))) == Vec3d{})
             refuse("faces must not be degenerate, the corners of face " + std::to_string(i) + " are on one line");
-    check_edges(faces_);
+    const std::vector<Edge> edges = sorted_edges(faces_, [](std::int32_t i) { return std::uint32_t(i); });
+    check_edges(edges);
+    closed_ = encloses_volume(*this, edges);
 }
 
 // One pack for each leaf. Boxes of triangles are exact.

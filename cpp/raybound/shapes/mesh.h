@@ -31,6 +31,9 @@ class MeshData {
     float reach() const { return reach_; }  // the largest coordinate
     std::size_t bytes() const;
 
+    // Every edge has two faces that run along it in opposite directions, and the faces enclose a positive volume.
+    bool is_closed() const { return closed_; }
+
     const Bvh& bvh() const { return bvh_; }
     std::span<const TrianglePack> packs() const { return packs_; }
 
@@ -43,7 +46,7 @@ class MeshData {
   private:
     MeshData() = default;
     const Vec3f& vertex(std::int32_t i) const { return vertices_[std::size_t(i)]; }
-    void check() const;
+    void check();
     void build();
 
     std::vector<Vec3f> vertices_, normals_;
@@ -51,6 +54,7 @@ class MeshData {
     std::vector<UV<float>> uvs_;
     Box bounds_;
     float reach_ = 0;
+    bool closed_ = false;
     Bvh bvh_;
     LargeArray<TrianglePack> packs_;
 };

@@ -5,18 +5,21 @@
 #include <algorithm>
 
 #include "raybound/shapes/boundary.h"
+#include "raybound/shapes/closest.h"
+#include "raybound/shapes/intersect.h"
 #include "raybound/shapes/pierce.h"
 
 namespace raybound {
 
 // A ray in the mesh's coordinates. This rounded line, as it is, is what decides, about every triangle of the mesh.
 inline PermutedLine mesh_line(const Geometry& geometry, const Leaf& leaf, const Ray<double>& ray) {
-    if (leaf.frame < 0) return {ray.origin, ray.direction, 0};
+    const bool closed = geometry.meshes[leaf.polygon].data->is_closed();
+    if (leaf.frame < 0) return {ray.origin, ray.direction, 0, closed};
     const Frame& frame = geometry.frames[std::size_t(leaf.frame)];
     const LocalPoint<double> origin = to_local(frame, ray.origin);
     const Vec3d d = frame.linear_wide * ray.direction;
     const auto flush = [](double x) { return flush_component(float(x)) == 0 ? 0.0 : x; };  // for every type alike
-    return {origin.y, {flush(d.x), flush(d.y), flush(d.z)}, max_component(origin.error)};
+    return {origin.y, {flush(d.x), flush(d.y), flush(d.z)}, max_component(origin.error), closed};
 }
 
 // The same with what T's slabs and filter need; T's line is within rounding of it.
@@ -49,7 +52,7 @@ struct FaceCrossing {
     double t, latest;
     T rounded;
     std::int32_t face;
-    bool hit;
+    bool hit, entering;
 };
 
 template <class T>
@@ -63,7 +66,7 @@ inline FaceCrossing<T> cross_lane(const TrianglePack& pack, int lane, const Mesh
     const Box box{minimum(minimum(corners.a, corners.b), corners.c), maximum(maximum(corners.a, corners.b), corners.c)};
     T entry;
     if (!crosses(box, ray.slabs, t_max, &entry)) return {};
-    return {p.t, p.latest, maximum(T(p.t), entry), std::int32_t(pack.id[lane]), true};
+    return {p.t, p.latest, maximum(T(p.t), entry), std::int32_t(pack.id[lane]), true, p.entering};
 }
 
 // Calls visit(pack) for the packs that the ray may meet; with brute force, for all.
@@ -82,7 +85,7 @@ inline Crossing<double> cross_mesh(const Geometry& geometry, std::uint32_t index
     const Leaf& leaf = geometry.leaves[index];
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
     const MeshRay<T> ray(geometry, leaf, world);
-    FaceCrossing<T> best{infinity<double>, infinity<double>, t_max, 0, false};
+    FaceCrossing<T> best{infinity<double>, infinity<double>, t_max, 0, false, false};
     visit_packs(mesh, ray, best.rounded, brute_force, [&](const TrianglePack& pack) {
         for (std::uint32_t lanes = may_cross(pack, ray.packs, best.rounded); lanes != 0;) {
             const FaceCrossing<T> found = cross_lane(pack, bvh::take_lowest(lanes), ray, best.rounded);
@@ -91,7 +94,7 @@ inline Crossing<double> cross_mesh(const Geometry& geometry, std::uint32_t index
         }
     });
     const double t = T(best.t) < best.rounded ? double(best.rounded) : best.t;
-    return {t, index, best.face, 0, best.hit, false};
+    return {t, index, best.face, 0, best.hit, best.entering};
 }
 
 // How far a local direction may be off, relative to its length: 5 roundings of |A||d|, and |d| <= |A^-1||d'|.
@@ -104,7 +107,7 @@ inline double line_error(const Geometry& geometry, const Leaf& leaf) {
 // Does any triangle block: certainly ahead, and certainly before `end`?
 template <class T>
 inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray<double>& world, double end,
-                        bool brute_force) {
+                        bool brute_force, Blocking* how) {
     const Leaf& leaf = geometry.leaves[index];
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
     const MeshRay<T> ray(geometry, leaf, world);
@@ -114,6 +117,7 @@ inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray
         for (std::uint32_t lanes = may_cross(pack, ray.packs, reach); lanes != 0;) {
             const FaceCrossing<T> found = cross_lane(pack, bvh::take_lowest(lanes), ray, reach);
             if (!found.hit || !(found.t < end)) continue;
+            if (how) how->entering = found.entering;
             if (!world.has_target || found.latest < surely_before) return true;
             if (found.t + boundary_error(geometry, leaf, found.face, found.t, world) < end) return true;
         }
@@ -131,7 +135,6 @@ struct BarycentricHit {
     Vec3d normal;   // outward, of the face
     Vec3d shading;  // the interpolated normal, on the same side; the face's own where there is none
     UV<double> uv;
-    bool entering;  // from the side of the outward normal
 };
 
 template <class Value>
@@ -159,15 +162,18 @@ inline UV<double> mesh_uv(const MeshData& mesh, const Face& face, const Piercing
 }
 
 inline BarycentricHit barycentric_hit(const Geometry& geometry, const Leaf& leaf, std::int32_t index,
-                                      const Ray<double>& world) {
+                                      const Ray<double>& world, double t) {
     const MeshInstance& instance = geometry.meshes[leaf.polygon];
     const MeshData& mesh = *instance.data;
     const PermutedLine line = mesh_line(geometry, leaf, world);
     const Corners<double> c = mesh.corners<double>(index);
     const Face& face = mesh.faces()[std::size_t(index)];
-    const Piercing weights = pierce_face(c, line);
+    Piercing weights = pierce_face(c, line);
+    if (!weights.met) {  // the ray must leave here, though by rounding it passes beside the face
+        const CornerWeights closest = closest_weights(c, line.origin + line.direction * t);
+        weights.a = closest.a, weights.b = closest.b, weights.c = closest.c, weights.sum = 1;
+    }
     BarycentricHit hit;
-    hit.entering = weights.sum * line.shear.dz > 0;  // the normal's slope, exact in sign, is minus that
     hit.point = interpolate(weights, c.a, c.b, c.c);
     hit.error = interpolate(weights, absolute(c.a), absolute(c.b), absolute(c.c)) * gamma<double>(7);
     hit.normal = cross(c.b - c.a, c.c - c.a);

@@ -34,17 +34,29 @@ inline double exact_determinant(const ExactDifference& p, const ExactDifference&
     return sum.value();
 }
 
+// The sign of the two-dimensional determinant (p - q) x d in components i and j, exactly.
+inline double exact_determinant(const ExactDifference& edge, const Vec3d& d, int i, int j) {
+    ExactSum<8> sum;
+    for (const Vec3d* e : {&edge.high, &edge.low}) {
+        sum.add_product((*e)[i], d[j]);
+        sum.add_product(-(*e)[j], d[i]);
+    }
+    return sum.value();
+}
+
 // A line with its shear. `origin_error` bounds how far each component of the origin is from the one that is meant.
 struct PermutedLine {
     Vec3d origin, direction;
     double origin_error;
+    bool closed;  // does the mesh enclose a volume, so that lines through its edges must come in and go out?
     Shear<double> shear;
     Vec3d permuted_origin, permuted_direction;
 
-    PermutedLine(const Vec3d& o, const Vec3d& d, double error)
+    PermutedLine(const Vec3d& o, const Vec3d& d, double error, bool is_closed)
         : origin(o),
           direction(d),
           origin_error(error),
+          closed(is_closed),
           shear(d),
           permuted_origin(shear.permuted(o)),
           permuted_direction(shear.permuted(d)) {}
@@ -54,19 +66,34 @@ struct PermutedLine {
 // `latest`, as far as the line's direction is right.
 struct Piercing {
     double a = 0, b = 0, c = 0, sum = 0, t = 0, latest = 0;
-    bool hit = false;
+    bool met = false;       // by the line, at any t
+    bool hit = false;       // certainly ahead
+    bool entering = false;  // against the outward normal: exact, as the normal's slope has the sign of -sum d_z
 };
+
+// The side of an edge that the line passes on, where it meets the edge itself: that of the line moved by (e, e^2) across
+// its direction, for any e small enough. The edge function from p to q then changes by e (p - q)_y - e^2 (p - q)_x, so
+// faces on both sides of an edge agree, and every face of a closed mesh is met or passed by the same line.
+inline double side_of_moved_line(const Vec3d& p, const Vec3d& q, const PermutedLine& line) {
+    const ExactDifference edge(p, q);
+    double side = exact_determinant(edge, line.permuted_direction, 1, 2) / line.shear.dz;
+    if (side == 0) side = -exact_determinant(edge, line.permuted_direction, 0, 2) / line.shear.dz;
+    return side == 0 ? 0 : std::copysign(std::numeric_limits<double>::denorm_min(), side);
+}
 
 // Edge functions within their band are evaluated exactly (up to a last rounding): (q - o) x (p - o) . d over d_z.
 inline void settle(EdgeFunctions<double>& e, const Corners<double>& corners, const PermutedLine& line) {
     const ExactDifference a(corners.a, line.permuted_origin), b(corners.b, line.permuted_origin),
         c(corners.c, line.permuted_origin), d(line.permuted_direction, {});
-    const auto side = [&](double& value, const ExactDifference& from, const ExactDifference& to) {
-        if (abs(value) <= e.band) value = exact_determinant(from, to, d) / line.shear.dz;
+    const auto side = [&](double& value, const ExactDifference& from, const ExactDifference& to, const Vec3d& p,
+                          const Vec3d& q) {
+        if (!(abs(value) <= e.band)) return;
+        value = exact_determinant(from, to, d) / line.shear.dz;
+        if (value == 0 && line.closed) value = side_of_moved_line(p, q, line);
     };
-    side(e.a, c, b);
-    side(e.b, a, c);
-    side(e.c, b, a);
+    side(e.a, c, b, corners.c, corners.b);
+    side(e.b, a, c, corners.a, corners.c);
+    side(e.c, b, a, corners.b, corners.a);
 }
 
 inline double exact_volume(const Corners<double>& corners, const Vec3d& origin) {
@@ -88,6 +115,8 @@ inline Piercing pierce(const Corners<double>& corners, const PermutedLine& line)
     const double band = 3 * ((gamma<double>(5) * size + e.band) * far + (size + e.band) * e.z_band);
     double scaled = e.a * e.za + e.b * e.zb + e.c * e.zc;
     if (abs(scaled) <= band) scaled = exact_volume(corners, line.permuted_origin);
+    p.met = true;
+    p.entering = p.sum * line.shear.dz > 0;
     p.t = scaled / (p.sum * line.shear.dz);
     const double unsure = line.origin_error * norm1(cross(corners.b - corners.a, corners.c - corners.a));
     p.hit = p.t > 0 && abs(scaled) > unsure * (1 + 0x1p-40);

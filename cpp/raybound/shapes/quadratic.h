@@ -104,6 +104,12 @@ inline Mask<T> certainly_missed(const Quadratic<T>& q) {
     return (q.discriminant.value < -q.discriminant.band) | ((q.a > T(0)) & (q.c.value > q.c.band) & (q.b > q.b_band));
 }
 
+// Where a ray that is inside leaves: at the later root. A line that misses, by rounding, does so where it is closest.
+template <class T>
+inline T last_root(const Quadratic<T>& q) {
+    return select(is_real(q), solve(q).high, -(q.b / q.a));
+}
+
 template <class T>
 inline Span<T> between(const Roots<T>& roots, int face) {
     return {roots.low, roots.high, face, face, roots.real, roots.low_ahead, roots.high_ahead};

@@ -99,8 +99,17 @@ struct Spans {
     }
 };
 
-// An `a` within its band is none, and then a `b` within its band neither: F is as good as linear, or constant, in the
-// box. From far away all of the box lies on one side of the origin.
+// An `a` within its band is none: F is as good as linear in the box.
+template <class T>
+inline QuadricLine<T> settled_line(const Quadric& s, const LocalRay<T>& ray) {
+    QuadricLine<T> line = quadric_line(s, ray);
+    Quadratic<T>& q = line.along;
+    if (abs(q.a) <= line.a_band) q.a = T(0), q.discriminant.value = q.b * q.b;
+    return line;
+}
+
+// A `b` within its band is none, too, if `a` is: F is as good as constant in the box. From far away all of the box lies
+// on one side of the origin.
 template <class T>
 inline Spans<T> quadric_spans(const Quadric& s, const LocalRay<T>& ray) {
     const T r(s.radius), inf = infinity<T>;
@@ -108,9 +117,8 @@ inline Spans<T> quadric_spans(const Quadric& s, const LocalRay<T>& ray) {
     ++box.face_in, ++box.face_out;  // after the quadric's own
     Spans<T> spans;
     if (none(box.hit)) return spans;
-    QuadricLine<T> line = quadric_line(s, ray);
-    Quadratic<T>& q = line.along;
-    if (abs(q.a) <= line.a_band) q.a = T(0), q.discriminant.value = q.b * q.b;
+    const QuadricLine<T> line = settled_line(s, ray);
+    const Quadratic<T>& q = line.along;
     if (q.a == T(0) && abs(q.b) <= q.b_band) {
         if (q.c.value <= T(0)) spans.add(box);
         return spans;
@@ -129,6 +137,22 @@ inline Spans<T> quadric_spans(const Quadric& s, const LocalRay<T>& ray) {
         spans.add(clip(Span<T>{high, inf, 0, 0, roots.real, high_ahead, Mask<T>(false)}, box));
     }
     return spans;
+}
+
+// Where a ray that is inside leaves. Where F falls to both ends of the line (a < 0) it leaves at the lower root if it is
+// before the gap between the roots.
+template <class T>
+inline Exit<T> quadric_exit(const Quadric& s, const LocalRay<T>& ray) {
+    const T r(s.radius);
+    const Span<T> box = box_span(ray, {-r, -r, -r}, {r, r, r});
+    const Exit<T> out{box.t_out, box.face_out + 1};
+    const QuadricLine<T> line = settled_line(s, ray);
+    const Quadratic<T>& q = line.along;
+    if (q.a == T(0) && abs(q.b) <= q.b_band) return out;
+    if (q.a >= T(0)) return earlier(Exit<T>{line.shift + last_root(q), 0}, out);
+    const Roots<T> roots = solve(q);
+    const bool before_gap = roots.real && line.shift - q.b / q.a > T(0);
+    return before_gap ? earlier(Exit<T>{line.shift + roots.low, 0}, out) : out;
 }
 
 template <class T>

@@ -80,12 +80,6 @@ void require_quadric(const std::vector<float>& c) {
         refuse(head + "have a part of first or second order, got " + format_all(c));
 }
 
-Boxd overlap(const std::vector<ShapePointer>& parts) {
-    Boxd box = shape_bounds(*parts[0], {});
-    for (const auto& part : parts) box = intersection(box, shape_bounds(*part, {}));
-    return box;
-}
-
 }  // namespace
 
 std::string format(double value) {
@@ -202,21 +196,6 @@ ShapePointer Shape::quadric(std::vector<float> coefficients, const Vec3f& lower,
     if (!find_inside(unit_quadric(*shape)).possible)
         refuse("Quadric: coefficients must leave a solid within clip, got " + format_all(shape->coefficients()) +
                ", > 0 throughout the box from " + format(lower) + " to " + format(upper));
-    return pointer;
-}
-
-ShapePointer Shape::combine(ShapeKind operation, std::vector<ShapePointer> parts) {
-    const bool is_union = operation == ShapeKind::csg_union;
-    const std::string name = is_union ? "Union" : "Intersection";
-    if (parts.empty()) refuse(name + ": needs at least one solid");
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        if (!parts[i]->is_solid())
-            refuse(name + ": argument " + std::to_string(i) + " must be a solid, a disk, polygon or mesh is none");
-    auto* shape = new Shape(operation);
-    shape->parts_ = std::move(parts);
-    ShapePointer pointer(shape);
-    if (!is_union && overlap(pointer->parts()).is_empty())
-        refuse(name + ": the parts do not overlap, their intersection encloses nothing");
     return pointer;
 }
 

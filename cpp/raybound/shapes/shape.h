@@ -21,6 +21,7 @@ enum class ShapeKind : std::uint8_t {
     mesh,
     csg_union,
     csg_intersection,
+    csg_difference,
     transformed
 };
 

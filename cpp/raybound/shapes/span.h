@@ -53,6 +53,24 @@ inline Span<T> clip(const Span<T>& a, const Span<T>& b) {
     return both;
 }
 
+// Where a ray that is inside a convex solid leaves it, whatever its rounded origin says: how it came in is not asked.
+template <class T>
+struct Exit {
+    T t;
+    Index<T> face;
+};
+
+// The earlier one; on a tie the first piece's, as in `clip`.
+template <class T>
+inline Exit<T> earlier(const Exit<T>& a, const Exit<T>& b) {
+    const Mask<T> second = b.t < a.t;
+    return {select(second, b.t, a.t), select(second, b.face, a.face)};
+}
+template <class T>
+inline Exit<T> exit_of(const Span<T>& span) {
+    return {span.t_out, span.face_out};
+}
+
 // Between the planes `lower` and `upper` of one coordinate; f and d are the ray's origin and direction there, with the
 // bounds of their errors. (Without error, signs of differences are exact.) A direction whose sign is unsure is
 // parallel.

@@ -74,6 +74,11 @@ inline Span<T> sphere_span(const LocalRay<T>& ray, T radius) {
     return none(is_real(q)) ? no_span<T>() : between(solve(q), 0);
 }
 
+template <class T>
+inline Exit<T> sphere_exit(const LocalRay<T>& ray, T radius) {
+    return {last_root(sphere_quadratic(ray, radius)), Index<T>(0)};
+}
+
 // The part of it ahead of the origin: the same, but nothing is said of a line whose crossings lie behind, which most
 // rays that leave a sphere are to it.
 template <class T>

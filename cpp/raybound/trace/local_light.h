@@ -37,6 +37,7 @@ template <class T>
     return term;
 }
 
+// `outside` is the index of refraction outside of the solid, where the ray enters it.
 // The rays that a surface below the largest depth sends on, and their weights. A direction means something where its
 // weight is above 0.
 template <class T>
@@ -48,11 +49,12 @@ struct SecondaryRays {
 
 template <class T>
 [[gnu::always_inline]] inline SecondaryRays<T> secondary_rays(const Material& material, const Vec3<T>& direction,
-                                                              const Vec3<T>& normal, const Mask<T>& entering) {
+                                                              const Vec3<T>& normal, const Mask<T>& entering,
+                                                              const T& outside) {
     SecondaryRays<T> rays{Vec3<T>(material.reflect), Vec3<T>(material.transmit), Vec3<T>{}, Vec3<T>{}, Mask<T>(false)};
     if (max_component(material.transmit) > 0) {
         const T ior(material.ior);
-        const Refraction<T> refraction = refract(direction, normal, select(entering, T(1) / ior, ior));
+        const Refraction<T> refraction = refract(direction, normal, select(entering, outside / ior, ior));
         rays.refracted = refraction.direction;
         rays.total = refraction.total;
         rays.reflect = select(rays.total, saturate(rays.reflect + rays.transmit), rays.reflect);

@@ -87,7 +87,7 @@ void pack_points(const Snapshot& scene, const RayPack& rays, const NearestPack& 
 void pack_hits(const Snapshot& scene, const RayPack& rays, PackHit* records) {
     NearestPack nearest{};
     for (std::uint32_t i = 0; i < scene.geometry().primitives.size(); ++i)
-        consider(scene.geometry(), i, rays, all_lanes, nearest);
+        consider(scene.geometry(), i, rays, all_lanes, infinity<FloatPack>, nearest);
     for (int lane = 0; lane < pack_width; ++lane) records[lane].t = nearest.t[lane];
     for (std::uint32_t rest = nearest.hit; rest != 0;) {
         const int first = std::countr_zero(rest);
@@ -141,6 +141,9 @@ PackLight light_record(const LightTerm<float>& term) {
 
 bool is_set(const PackMask<float>& mask, int lane) { return (bits(mask) >> lane & 1) != 0; }
 
+// The index of refraction around every fourth pair of rays is that of glass.
+float outside_of(std::size_t ray) { return ray % pack_width < 2 ? 1.5f : 1.0f; }
+
 void pack_light(const Snapshot& scene, const Material& material, const LitPoint<FloatPack>& at,
                 const Vec3<FloatPack>& direction, const PackMask<float>& entering, PackLight* lights,
                 PackSecondary* rays) {
@@ -153,7 +156,9 @@ void pack_light(const Snapshot& scene, const Material& material, const LitPoint<
                 light_record({lane_of(term.direction, lane), lane_of(term.irradiance, lane), lane_of(term.factor, lane),
                               is_set(term.faces, lane), is_set(term.shines, lane), is_set(term.weighs, lane)});
     }
-    const SecondaryRays<FloatPack> next = secondary_rays(material, direction, at.normal, entering);
+    FloatPack outside;
+    for (int lane = 0; lane < pack_width; ++lane) set_lane(outside, lane, outside_of(std::size_t(lane)));
+    const SecondaryRays<FloatPack> next = secondary_rays(material, direction, at.normal, entering, outside);
     for (int lane = 0; lane < pack_width; ++lane)
         rays[lane] =
             secondary_record({lane_of(next.reflect, lane), lane_of(next.transmit, lane), lane_of(next.reflected, lane),
@@ -182,7 +187,7 @@ std::vector<std::uint8_t> trial_blocked(const Snapshot& scene, std::span<const V
     for (std::size_t i = 0; i + pack_width <= origins.size(); i += pack_width) {
         const auto rays = make<RayPack>(load(origins, i), load(ends, i), directions);
         for (std::size_t p = 0; p < count; ++p) {
-            const std::uint32_t lanes = blocked_lanes(geometry, std::uint32_t(p), rays, all_lanes);
+            const std::uint32_t lanes = blocked_lanes(geometry, std::uint32_t(p), rays, all_lanes).blocked;
             for (std::size_t k = 0; k < pack_width; ++k)
                 blocked[(i + k) * count + p] =
                     packed ? lanes >> k & 1
@@ -214,7 +219,8 @@ PackLocalLight trial_light(const Snapshot& scene, std::uint32_t object, std::spa
             for (std::size_t j = 0; j < count; ++j)
                 result.lights[k * count + j] =
                     light_record(light_term(*scene.lights()[j].light, material, at, n_dot_v));
-            result.rays[k] = secondary_record(secondary_rays<float>(material, directions[k], normals[k], k % 2 == 0));
+            result.rays[k] = secondary_record(
+                secondary_rays<float>(material, directions[k], normals[k], k % 2 == 0, outside_of(k)));
         }
     }
     return result;

@@ -4,26 +4,6 @@ namespace raybound {
 
 namespace {
 
-// Takes the primitive's crossing if it comes first. A crossing cannot lie before the entry into the primitive's box:
-// the clamp makes that true of rounded numbers too, so that a traversal ordered by entries misses nothing.
-template <class T>
-void consider(const Geometry& geometry, std::uint32_t index, const WideRay<T>& ray, T entry, bool filtered,
-              bool brute_force, Nearest<T>& best) {
-    const Crossing<Wide<T>> crossing =
-        first_crossing(geometry, geometry.primitives[index], ray, Asking<T>{filtered, brute_force, best.t});
-    if (!crossing.hit) return;
-    const auto ranked = [&](std::uint32_t primitive, const Crossing<Wide<T>>& c) {
-        return rank(geometry, primitive, c.face_offset + c.face);
-    };
-    const T t = maximum(T(crossing.t), entry);
-    if (!(t < infinity<T>) || t > best.t) return;
-    if (best.hit && t == best.t && !(ranked(index, crossing) < ranked(best.primitive, best.crossing))) return;
-    best.crossing = crossing;
-    best.t = t;
-    best.primitive = index;
-    best.hit = true;
-}
-
 // The brute-force loop over everything whose box is crossed: what the BVH must agree with.
 template <class T, class Visit>
 bool visit_all(const Geometry& geometry, const Ray<T>& ray, const T& t_max, const Visit& visit) {
@@ -35,40 +15,255 @@ bool visit_all(const Geometry& geometry, const Ray<T>& ray, const T& t_max, cons
     return false;
 }
 
+// One search for the closest hit.
+template <class T>
+class Search {
+  public:
+    Search(const Snapshot& scene, const WideRay<T>& ray, const Departure& from, Acceleration acceleration)
+        : scene_(scene),
+          geometry_(scene.geometry()),
+          ray_(ray),
+          from_(from),
+          brute_force_(acceleration == Acceleration::brute_force),
+          gone_(gone_for_good(geometry_, from)) {}
+
+    Nearest<T> run(const Bvh::Frontier* frontier) {
+        for (;;) {
+            look(frontier);
+            if (!best_.hit || best_.crossing.entering || best_.primitive == from_.within) break;
+            if (!is_closed(geometry_, geometry_.primitives[best_.primitive]) || !look_closer(best_.primitive)) break;
+        }
+        best_.within = from_.within;
+        return best_;
+    }
+
+  private:
+    // What is beyond the way out of the solid that the ray is within is of no interest, but for what touches it there.
+    [[gnu::noinline]] void look(const Bvh::Frontier* frontier) {
+        best_ = exit_ = {};
+        doubtful_from_ = infinity<T>;
+        if (from_.within != Departure::none) leave();
+        const auto visit = [&](std::uint32_t index, T entry, bool filtered) {
+            if (index != from_.within && index != gone_) consider(index, entry, filtered);
+            return false;
+        };
+        if (!brute_force_)
+            scene_.accelerator().traverse(geometry_, ray_.narrow, best_.t, visit, frontier);
+        else
+            visit_all(geometry_, ray_.narrow, best_.t, visit);
+        if (!best_.hit) best_ = exit_;
+    }
+
+    void leave() {
+        const Asking<T> asking{false, brute_force_, infinity<T>};
+        exit_.crossing =
+            crossing_from_inside(geometry_, geometry_.primitives[from_.within], ray_, from_, asking);
+        exit_.t = T(exit_.crossing.t);
+        exit_.primitive = from_.within;
+        exit_.hit = exit_.t < infinity<T>;
+        if (!exit_.hit) return;
+        const T doubt = exit_.t * T(0x1p-16) + norm1(ray_.narrow.origin) * T(0x1p-40);
+        best_.t = exit_.t + doubt;
+        doubtful_from_ = exit_.t - doubt;
+    }
+
+    // A crossing whose kind contradicts what the ray knows. False if it has been looked at already: solids overlap. Then
+    // the ray is inside of this one, too, if it is not known to be inside of another.
+    bool look_closer(std::uint32_t primitive) {
+        if (!is_careful(primitive)) {
+            if (careful_count_ == most_careful) return false;
+            careful_[careful_count_++] = primitive;
+            return true;
+        }
+        if (from_.within != Departure::none) return false;
+        from_.within = primitive;
+        return true;
+    }
+    bool is_careful(std::uint32_t primitive) const {
+        for (int i = 0; i < careful_count_; ++i)
+            if (careful_[i] == primitive) return true;
+        return false;
+    }
+
+    Crossing<Wide<T>> crossing_of(std::uint32_t index, bool filtered) const {
+        const Primitive& primitive = geometry_.primitives[index];
+        const Asking<T> asking{filtered, brute_force_, best_.t};
+        const bool left = index == from_.left && is_closed(geometry_, primitive);
+        if (left || (careful_count_ != 0 && is_careful(index)))
+            return crossing_from_outside(geometry_, primitive, ray_, from_, left, asking);
+        return first_crossing(geometry_, primitive, ray_, asking);
+    }
+
+    Rank rank_of(std::uint32_t primitive, const Crossing<Wide<T>>& c) const {
+        return rank(geometry_, primitive, c.face_offset + c.face);
+    }
+
+    // Takes the primitive's crossing if it comes first. A crossing cannot lie before the entry into the primitive's
+    // box: the clamp makes that true of rounded numbers too, so that a traversal ordered by entries misses nothing.
+    void consider(std::uint32_t index, T entry, bool filtered) {
+        const Crossing<Wide<T>> crossing = crossing_of(index, filtered);
+        if (!crossing.hit) return;
+        const T t = maximum(T(crossing.t), entry);
+        if (!(t < infinity<T>) || t > best_.t) return;
+        bool touching = false;
+        if (t >= doubtful_from_ && !is_before_exit(index, crossing, t, touching)) return;
+        if (best_.hit && t == best_.t && !(rank_of(index, crossing) < rank_of(best_.primitive, best_.crossing)))
+            return;
+        best_.crossing = crossing;
+        best_.t = t;
+        best_.primitive = index;
+        best_.hit = true;
+        best_.touching = touching;
+    }
+
+    // About where the ray leaves the solid that it is within: what it enters there comes first; what it leaves, too, is
+    // the same solid again.
+    bool is_before_exit(std::uint32_t index, const Crossing<Wide<T>>& crossing, T t, bool& touching) const {
+        if (is_closed(geometry_, geometry_.primitives[index]) &&
+            (t == exit_.t || coincide(geometry_, crossing, exit_.crossing, ray_.wide))) {
+            touching = crossing.entering;
+            return touching;
+        }
+        if (t == exit_.t) return rank_of(index, crossing) < rank_of(exit_.primitive, exit_.crossing);
+        return t < exit_.t;
+    }
+
+    static constexpr int most_careful = 4;
+
+    const Snapshot& scene_;
+    const Geometry& geometry_;
+    const WideRay<T>& ray_;
+    Departure from_;
+    bool brute_force_;
+    std::uint32_t gone_;
+    Nearest<T> best_, exit_;
+    T doubtful_from_ = infinity<T>;  // from here on a crossing may be where the ray leaves
+    std::uint32_t careful_[most_careful];
+    int careful_count_ = 0;
+};
+
+// Is there anything between the ray's origin and its end?
+template <class T>
+class BlockerSearch {
+  public:
+    BlockerSearch(const Snapshot& scene, const WideRay<T>& ray, const Departure& from, Acceleration acceleration)
+        : geometry_(scene.geometry()),
+          ray_(ray),
+          from_(from),
+          brute_force_(acceleration == Acceleration::brute_force),
+          gone_(gone_for_good(geometry_, from)) {}
+
+    bool is_within_blocked() const {
+        if (from_.within == Departure::none) return false;
+        const Primitive& primitive = geometry_.primitives[from_.within];
+        return is_before_end(geometry_, crossing_from_inside(geometry_, primitive, ray_, from_, asking(false)), ray_);
+    }
+
+    bool is_blocked_by(std::uint32_t index, bool filtered) const {
+        if (index == from_.within || index == gone_) return false;
+        const Primitive& primitive = geometry_.primitives[index];
+        const bool left = index == from_.left;
+        Blocking how;
+        if (!blocks(geometry_, primitive, ray_, asking(filtered), &how)) return false;
+        if (how.entering && !left) return true;
+        if (!is_closed(geometry_, primitive) || !(left || may_begin_in(primitive))) return true;
+        return is_before_end(
+            geometry_, crossing_from_outside(geometry_, primitive, ray_, from_, left, asking(filtered)), ray_);
+    }
+
+  private:
+    Asking<T> asking(bool filtered) const { return {filtered, brute_force_, infinity<T>}; }
+
+    bool may_begin_in(const Primitive& primitive) const {
+        for (int i = 0; i < 3; ++i)
+            if (!(T(primitive.bounds.lower[i]) <= ray_.narrow.origin[i] &&
+                  ray_.narrow.origin[i] <= T(primitive.bounds.upper[i])))
+                return false;
+        return true;
+    }
+
+    const Geometry& geometry_;
+    const WideRay<T>& ray_;
+    const Departure& from_;
+    bool brute_force_;
+    std::uint32_t gone_;
+};
+
 }  // namespace
 
-Departure departure(const Geometry& geometry, std::uint32_t primitive, bool outward) {
-    return {is_left_for_good(geometry, geometry.primitives[primitive], outward) ? primitive : Departure::none};
+template <class T>
+Departures departures(const Geometry& geometry, const Nearest<T>& nearest) {
+    const std::uint32_t none = Departure::none, here = nearest.primitive, within = nearest.within;
+    const std::uint32_t leaf = nearest.crossing.leaf;
+    const std::int32_t face = nearest.crossing.face;
+    if (!is_closed(geometry, geometry.primitives[here])) {
+        const Departure both{within, here, leaf, face};
+        return {both, both};
+    }
+    if (nearest.crossing.entering)
+        return {{within, here, leaf, face}, {here, nearest.touching ? within : none, leaf, face}};
+    return {{here, none, leaf, face}, {within == here ? none : within, here, leaf, face}};
 }
 
-template <class T>
-Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, Departure departed, Acceleration acceleration,
-                       const Bvh::Frontier* from) {
+std::uint32_t gone_for_good(const Geometry& geometry, const Departure& from) {
+    if (from.left == Departure::none) return Departure::none;
+    return is_left_for_good(geometry, geometry.primitives[from.left], true) ? from.left : Departure::none;
+}
+
+void visit_containing(const Snapshot& scene, const Vec3f& point, const std::function<void(std::uint32_t)>& visit) {
     const Geometry& geometry = scene.geometry();
-    const bool brute_force = acceleration == Acceleration::brute_force;
-    Nearest<T> best;
-    const auto visit = [&](std::uint32_t index, T entry, bool filtered) {
-        if (index != departed.primitive) consider(geometry, index, ray, entry, filtered, brute_force, best);
-        return false;
+    const auto holds = [&](const auto& plane, Pack<float>& near) {
+        using P = Pack<float>;
+        near = P(0.0f);
+        auto inside = (plane(0) <= P(point.x)) & (P(point.x) <= plane(3));
+        inside = inside & (plane(1) <= P(point.y)) & (P(point.y) <= plane(4));
+        return bits(inside & (plane(2) <= P(point.z)) & (P(point.z) <= plane(5)));
     };
-    if (!brute_force)
-        scene.accelerator().traverse(geometry, ray.narrow, best.t, visit, from);
-    else
-        visit_all(geometry, ray.narrow, best.t, visit);
-    return best;
+    scene.accelerator().bvh().visit(
+        holds, [] { return infinity<float>; },
+        [&](std::uint32_t leaf, float) {
+            scene.accelerator().visit_primitives(leaf, [&](std::uint32_t index) {
+                const Primitive& primitive = geometry.primitives[index];
+                for (int i = 0; i < 3; ++i)
+                    if (!(primitive.bounds.lower[i] <= point[i] && point[i] <= primitive.bounds.upper[i])) return;
+                if (is_closed(geometry, primitive) && contains(geometry, primitive, Vec3d(point))) visit(index);
+            });
+        });
+}
+
+Departure departure_at(const Snapshot& scene, const Vec3f& origin) {
+    Departure from;
+    int count = 0;
+    visit_containing(scene, origin, [&](std::uint32_t primitive) { from.within = primitive, ++count; });
+    if (count > 1) from.within = Departure::none;
+    return from;
 }
 
 template <class T>
-bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed, std::int32_t* blocker,
+T outside_ior(const Snapshot& scene, const Nearest<T>& nearest) {
+    if (!nearest.touching) return T(1);
+    return T(scene.objects()[scene.geometry().primitives[nearest.within].object].material->ior);
+}
+
+template <class T>
+Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed,
+                       Acceleration acceleration, const Bvh::Frontier* from) {
+    return Search<T>(scene, ray, departed, acceleration).run(from);
+}
+
+template <class T>
+bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed, std::int32_t* blocker,
                 Acceleration acceleration, std::uint32_t* last) {
     const Geometry& geometry = scene.geometry();
-    const bool brute_force = acceleration == Acceleration::brute_force;
     const T reach = ray.narrow.has_target ? ray.narrow.t_max * T(1 + 0x1p-10) : infinity<T>;
+    const BlockerSearch<T> search(scene, ray, departed, acceleration);
+    if (search.is_within_blocked()) {
+        if (blocker) *blocker = scene.objects()[geometry.primitives[departed.within].object].id;
+        return true;
+    }
     const auto visit = [&](std::uint32_t index, T, bool filtered) {
-        if (index == departed.primitive) return false;
-        const Primitive& primitive = geometry.primitives[index];
-        if (!blocks(geometry, primitive, ray, Asking<T>{filtered, brute_force})) return false;
-        if (blocker) *blocker = scene.objects()[primitive.object].id;
+        if (!search.is_blocked_by(index, filtered)) return false;
+        if (blocker) *blocker = scene.objects()[geometry.primitives[index].object].id;
         if (last && *last != index) *last = index;  // (other threads may share the cache line)
         return true;
     };
@@ -78,17 +273,30 @@ bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, Departure departed
             visit(*last, entry, false))
             return true;
     }
-    if (!brute_force) return scene.accelerator().any(geometry, ray.narrow, reach, visit);
+    if (acceleration != Acceleration::brute_force)
+        return scene.accelerator().any(geometry, ray.narrow, reach, visit);
     return visit_all(geometry, ray.narrow, reach, visit);
 }
 
-template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, Departure, Acceleration,
+bool is_blocked_by(const Snapshot& scene, const WideRay<float>& ray, const Departure& departed,
+                   std::uint32_t primitive) {
+    return BlockerSearch<float>(scene, ray, departed, Acceleration::bvh).is_blocked_by(primitive, false);
+}
+bool is_blocked_from_inside(const Snapshot& scene, const WideRay<float>& ray, const Departure& departed) {
+    return BlockerSearch<float>(scene, ray, departed, Acceleration::bvh).is_within_blocked();
+}
+
+template Departures departures(const Geometry&, const Nearest<float>&);
+template Departures departures(const Geometry&, const Nearest<double>&);
+template float outside_ior(const Snapshot&, const Nearest<float>&);
+template double outside_ior(const Snapshot&, const Nearest<double>&);
+template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, const Departure&, Acceleration,
                                     const Bvh::Frontier*);
-template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, Departure, Acceleration,
+template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, const Departure&, Acceleration,
                                      const Bvh::Frontier*);
-template bool is_blocked(const Snapshot&, const WideRay<float>&, Departure, std::int32_t*, Acceleration,
+template bool is_blocked(const Snapshot&, const WideRay<float>&, const Departure&, std::int32_t*, Acceleration,
                          std::uint32_t*);
-template bool is_blocked(const Snapshot&, const WideRay<double>&, Departure, std::int32_t*, Acceleration,
+template bool is_blocked(const Snapshot&, const WideRay<double>&, const Departure&, std::int32_t*, Acceleration,
                          std::uint32_t*);
 
 }  // namespace raybound

@@ -12,28 +12,30 @@ struct Tracer<T>::Shadable {
     Vec3<T> side;    // the surface's own normal, turned toward the viewer
     Vec3<T> origin;  // of rays that leave on that side, outside the error box of the hit
     LitPoint<T> lit;
-    Departure outer, inner;  // of rays that leave on the viewer's side, and on the other
+    Departures leaving;
+    T outside_ior;
 };
 
 template <class T>
-EyeSample<T> Tracer<T>::sample(const Vec3<T>& origin, const Vec3<T>& direction, const Bvh::Frontier* from) {
+EyeSample<T> Tracer<T>::sample(const Vec3<T>& origin, const Vec3<T>& direction, const Departure& eye,
+                               const Bvh::Frontier* from) {
     EyeSample<T> first{{}, infinity<T>, -1};
     ++counts_.eye;
-    first.radiance = radiance(WideRay<T>(origin, direction), {}, 1, NoRecord{}, &first, from);
+    first.radiance = radiance(WideRay<T>(origin, direction), eye, 1, NoRecord{}, &first, from);
     return first;
 }
 
 template <class T>
-RayTreeNode Tracer<T>::ray_tree(const Vec3<T>& origin, const Vec3<T>& direction) {
+RayTreeNode Tracer<T>::ray_tree(const Vec3<T>& origin, const Vec3<T>& direction, const Departure& eye) {
     RayTreeNode root;
     ++counts_.eye;
-    radiance(WideRay<T>(origin, direction), {}, 1, RecordTree{&root}, nullptr);
+    radiance(WideRay<T>(origin, direction), eye, 1, RecordTree{&root}, nullptr);
     return root;
 }
 
 template <class T>
 template <class Record>
-Vec3<T> Tracer<T>::radiance(const WideRay<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first,
+Vec3<T> Tracer<T>::radiance(const WideRay<T>& ray, const Departure& departed, int depth, Record record, EyeSample<T>* first,
                             const Bvh::Frontier* from) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return {};
     const Nearest<T> nearest = closest_hit(scene_, ray, departed, settings_.acceleration, from);
@@ -69,8 +71,8 @@ Vec3<T> Tracer<T>::shade(const WideRay<T>& wide, const Nearest<T>& nearest, int 
                       side,
                       offset_origin(hit.point, hit.point_error, side),
                       {hit.point, hit.entering ? hit.shading : -hit.shading, -ray.direction, diffuse},
-                      departure(geometry, nearest.primitive, hit.entering),
-                      departure(geometry, nearest.primitive, !hit.entering)};
+                      departures(geometry, nearest),
+                      outside_ior(scene_, nearest)};
     *t = hit.t;
     if constexpr (Record::active) {
         record.node->point = Vec3d(hit.point);
@@ -106,7 +108,7 @@ template <class T>
 bool Tracer<T>::is_lit(const Shadable& at, std::size_t index, std::int32_t* blocker) {
     ++counts_.shadow;
     const WideRay<T> ray = ray_to_light(at.origin, *scene_.lights()[index].light);
-    return !is_blocked(scene_, ray, at.outer, blocker, settings_.acceleration,
+    return !is_blocked(scene_, ray, at.leaving.outer, blocker, settings_.acceleration,
                        blocker ? nullptr : &last_blockers_[index]);
 }
 
@@ -115,19 +117,19 @@ template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth,
                                  Record record) {
-    const SecondaryRays<T> rays = secondary_rays(at.material, ray.direction, at.lit.normal, at.hit.entering);
+    const SecondaryRays<T> rays = secondary_rays(at.material, ray.direction, at.lit.normal, at.hit.entering, at.outside_ior);
     if constexpr (Record::active) record.node->total_internal_reflection = rays.total;
     Vec3<T> sum = local;
     if (max_component(rays.reflect) > T(0)) {
         ++counts_.reflected;
         const WideRay<T> next(at.origin, rays.reflected);
-        const Vec3<T> seen = radiance(next, at.outer, depth + 1, record.child(RayKind::reflected), nullptr);
+        const Vec3<T> seen = radiance(next, at.leaving.outer, depth + 1, record.child(RayKind::reflected), nullptr);
         sum = saturate(sum + rays.reflect * seen);
     }
     if (max_component(rays.transmit) > T(0)) {
         ++counts_.refracted;
         const WideRay<T> next(offset_origin(at.hit.point, at.hit.point_error, -at.side), rays.refracted);
-        const Vec3<T> seen = radiance(next, at.inner, depth + 1, record.child(RayKind::refracted), nullptr);
+        const Vec3<T> seen = radiance(next, at.leaving.inner, depth + 1, record.child(RayKind::refracted), nullptr);
         sum = saturate(sum + rays.transmit * seen);
     }
     return sum;

@@ -38,11 +38,12 @@ class alignas(64) Tracer {
     Tracer(const Snapshot& scene, const TraceSettings& settings)
         : scene_(scene), settings_(settings), last_blockers_(scene.lights().size(), Departure::none) {}
 
-    // The radiance of an eye ray with a unit direction; the search for what it hits may begin at `from`.
-    EyeSample<T> sample(const Vec3<T>& origin, const Vec3<T>& direction, const Bvh::Frontier* from = nullptr);
+    // The radiance of an eye ray with a unit direction, where `eye` tells what its origin lies in; the search for what it hits may begin at `from`.
+    EyeSample<T> sample(const Vec3<T>& origin, const Vec3<T>& direction, const Departure& eye,
+                        const Bvh::Frontier* from = nullptr);
 
     // The same with its ray tree.
-    RayTreeNode ray_tree(const Vec3<T>& origin, const Vec3<T>& direction);
+    RayTreeNode ray_tree(const Vec3<T>& origin, const Vec3<T>& direction, const Departure& eye);
 
     const RayCounts& counts() const { return counts_; }
 
@@ -50,7 +51,7 @@ class alignas(64) Tracer {
     struct Shadable;
 
     template <class Record>
-    Vec3<T> radiance(const WideRay<T>& ray, Departure departed, int depth, Record record, EyeSample<T>* first,
+    Vec3<T> radiance(const WideRay<T>& ray, const Departure& departed, int depth, Record record, EyeSample<T>* first,
                      const Bvh::Frontier* from = nullptr);
     template <class Record>
     Vec3<T> shade(const WideRay<T>& wide, const Nearest<T>& nearest, int depth, Record record, T* t);
