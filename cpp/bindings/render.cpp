@@ -2,6 +2,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/offsets.h"
+#include "bindings/origins.h"
 #include "raybound/frame/query.h"
 
 namespace raybound::python {
@@ -62,23 +63,35 @@ py::dict render_frame(const std::shared_ptr<Snapshot>& snapshot, const Camera& c
                     "cells"_a = cell_counts(statistics.cells));
 }
 
-py::dict trace(const std::shared_ptr<Snapshot>& snapshot, const Floats& origins, const Floats& directions,
+py::dict trace(const std::shared_ptr<Snapshot>& snapshot, const py::array& origins, const Floats& directions,
                int max_depth, int threads, const py::object& progress) {
     const RenderSettings settings = settings_of(max_depth, threads, 1);
-    const auto o = to_vectors<float>(origins), d = to_vectors<float>(directions);
-    if (o.size() != d.size())
-        throw std::invalid_argument("Renderer.trace: origins and directions must have the same shape");
-    TracedRays result;
-    {
+    const auto d = to_vectors<float>(directions);
+    const TracedRays result = with_origins("Renderer.trace", *snapshot, origins, [&](const RayOrigins& from) {
+        if (from.size() != d.size())
+            throw std::invalid_argument("Renderer.trace: origins and directions must have the same shape");
         const py::gil_scoped_release released;
-        result = trace_rays(*snapshot, {o.begin(), o.end()}, {d.begin(), d.end()}, settings, watcher(progress));
-    }
+        return trace_rays(*snapshot, from, {d.begin(), d.end()}, settings, watcher(progress));
+    });
     std::vector<std::uint8_t> path;
     for (const std::int32_t id : result.object_id)
         path.push_back(std::uint8_t(id < 0 ? Path::background : Path::traced));
     return py::dict("radiance"_a = from_vectors(result.radiance), "object_id"_a = from_vector(result.object_id),
                     "path"_a = from_vector(path), "t"_a = from_vector(result.t),
                     "rays"_a = ray_counts(result.statistics.rays));
+}
+
+py::array_t<PathRecord> paths(const std::shared_ptr<Snapshot>& snapshot, const py::array& origins,
+                              const Floats& directions, int max_depth, int threads) {
+    const RenderSettings settings = settings_of(max_depth, threads, 1);
+    const auto d = to_vectors<float>(directions);
+    const py::object silent = py::none();
+    return from_vector(with_origins("Renderer.paths", *snapshot, origins, [&](const RayOrigins& from) {
+        if (from.size() != d.size())
+            throw std::invalid_argument("Renderer.paths: origins and directions must have the same shape");
+        const py::gil_scoped_release released;
+        return trace_paths(*snapshot, from, {d.begin(), d.end()}, settings, watcher(silent));
+    }));
 }
 
 py::dict closest_hits_dict(const Snapshot& scene, const Floats& origins, const Floats& directions, int threads) {
@@ -172,6 +185,8 @@ void register_render(py::module_& m) {
           "stride"_a, "precision"_a, "brute_force"_a, "cells"_a = py::none(), "progress"_a = py::none());
     m.def("trace", &trace, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "max_depth"_a, "threads"_a,
           "progress"_a);
+    PYBIND11_NUMPY_DTYPE(PathRecord, ray, parent, kind, depth, origin, point, t, object_id, face_id, weight);
+    m.def("paths", &paths, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "max_depth"_a, "threads"_a);
     m.def("closest_hits", &closest_hits_dict, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "threads"_a);
     m.def("primary_hits", &primary_hits_tuple, "snapshot"_a, "camera"_a, py::kw_only(), "threads"_a);
     m.def("trace_bounces", &bounces, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "precision"_a,

@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "bindings/origins.h"
 #include "raybound/frame/query.h"
 #include "raybound/scene/document.h"
 
@@ -6,32 +7,56 @@ namespace raybound::python {
 
 namespace {
 
-py::array_t<HitRecord> intersect(const Snapshot& scene, const Floats& origins, const Floats& directions) {
-    const auto o = to_vectors<float>(origins), d = to_vectors<float>(directions);
-    if (o.size() != d.size())
-        throw std::invalid_argument("Scene.intersect: origins and directions must have the same shape");
-    std::vector<HitRecord> records;
-    const py::object silent = py::none();
-    {
+// Calls answer(origins, ends) with the GIL released, where origins are points or records of hits.
+template <class Answer>
+auto ask(const char* who, const Snapshot& scene, const py::array& origins, const Floats& ends, const Answer& answer) {
+    return with_origins(who, scene, origins, [&](const RayOrigins& from) {
+        const auto to = to_vectors<float>(ends);
+        if (from.size() != to.size())
+            throw std::invalid_argument(std::string(who) + ": both arguments must have the same shape");
+        const py::object silent = py::none();
         const py::gil_scoped_release released;
-        records = intersect_rays(scene, o, d, watcher(silent));
-    }
-    return from_vector(records);
+        return answer(from, to, watcher(silent));
+    });
 }
 
-py::array_t<bool> occluded_array(const Snapshot& scene, const Floats& origins, const Floats& targets) {
-    const auto o = to_vectors<float>(origins), t = to_vectors<float>(targets);
-    if (o.size() != t.size())
-        throw std::invalid_argument("Scene.occluded: origins and targets must have the same shape");
-    std::vector<std::uint8_t> blocked;
+py::array_t<bool> bools(const std::vector<std::uint8_t>& values) {
+    py::array_t<bool> result(py::ssize_t(values.size()));
+    std::copy(values.begin(), values.end(), result.mutable_data());
+    return result;
+}
+
+py::array_t<HitRecord> intersect(const Snapshot& scene, const py::array& origins, const Floats& directions) {
+    return from_vector(ask("Scene.intersect", scene, origins, directions,
+                           [&](const RayOrigins& from, std::span<const Vec3f> along, const Watch& watch) {
+                               return intersect_rays(scene, from, along, watch);
+                           }));
+}
+
+py::tuple intersect_all_tuple(const Snapshot& scene, const py::array& origins, const Floats& directions) {
+    const AllHits all = ask("Scene.intersect_all", scene, origins, directions,
+                            [&](const RayOrigins& from, std::span<const Vec3f> along, const Watch& watch) {
+                                return intersect_all(scene, from, along, watch);
+                            });
+    return py::make_tuple(from_vector(all.records), from_vector(all.offsets));
+}
+
+py::array_t<bool> occluded_array(const Snapshot& scene, const py::array& origins, const Floats& targets) {
+    return bools(ask("Scene.occluded", scene, origins, targets,
+                     [&](const RayOrigins& from, std::span<const Vec3f> to, const Watch& watch) {
+                         return occluded(scene, from, to, watch);
+                     }));
+}
+
+py::tuple containing_tuple(const Snapshot& scene, const Floats& points) {
+    const auto p = to_vectors<float>(points);
+    Containing all;
     const py::object silent = py::none();
     {
         const py::gil_scoped_release released;
-        blocked = occluded(scene, o, t, watcher(silent));
+        all = containing(scene, p, watcher(silent));
     }
-    py::array_t<bool> result(py::ssize_t(blocked.size()));
-    std::copy(blocked.begin(), blocked.end(), result.mutable_data());
-    return result;
+    return py::make_tuple(from_vector(all.object_ids), from_vector(all.offsets));
 }
 
 void register_document(py::module_& m) {
@@ -89,7 +114,9 @@ void register_document(py::module_& m) {
 }  // namespace
 
 void register_scene(py::module_& m) {
-    PYBIND11_NUMPY_DTYPE(HitRecord, hit, t, t_error, point, point_error, normal, uv, object_id, face_id);
+    PYBIND11_NUMPY_DTYPE(HitRecord, hit, t, t_error, point, point_error, normal, uv, object_id, face_id, entering,
+                         within_id, touching, direction, seal);
+    m.attr("hit_record") = py::dtype::of<HitRecord>();
 
     py::class_<Snapshot, std::shared_ptr<Snapshot>>(m, "Snapshot", py::is_final())
         .def_property_readonly("revision", &Snapshot::revision)
@@ -98,7 +125,9 @@ void register_scene(py::module_& m) {
         .def_property_readonly("light_count", [](const Snapshot& s) { return s.lights().size(); })
         .def_property_readonly("bytes", &Snapshot::bytes)
         .def("intersect", &intersect, "origins"_a, "directions"_a)
-        .def("occluded", &occluded_array, "origins"_a, "targets"_a);
+        .def("intersect_all", &intersect_all_tuple, "origins"_a, "directions"_a)
+        .def("occluded", &occluded_array, "origins"_a, "targets"_a)
+        .def("containing", &containing_tuple, "points"_a);
     register_document(m);
 }
 

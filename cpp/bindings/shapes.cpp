@@ -123,6 +123,25 @@ void register_shapes(py::module_& m) {
         [=](const Parts& p) { return result(Shape::combine(ShapeKind::csg_intersection, {p.begin(), p.end()})); },
         "shapes"_a);
     m.def(
+        "csg_difference",
+        [=](const Parts& p) { return result(Shape::combine(ShapeKind::csg_difference, {p.begin(), p.end()})); },
+        "shapes"_a);
+    m.def(
+        "shape_contains",
+        [](const std::shared_ptr<Shape>& shape, const Doubles& points) {
+            const std::vector<Vec3d> p = doubles(points);
+            std::vector<std::uint8_t> inside;
+            const py::object silent = py::none();
+            {
+                const py::gil_scoped_release released;
+                inside = shape_contains(*shape, p, watcher(silent));
+            }
+            py::array_t<bool> answer(py::ssize_t(inside.size()));
+            std::copy(inside.begin(), inside.end(), answer.mutable_data());
+            return answer;
+        },
+        "shape"_a, "points"_a);
+    m.def(
         "transformed",
         [=](const std::shared_ptr<Shape>& shape, const Doubles& matrix) {
             return result(Shape::transformed(

@@ -17,7 +17,7 @@ import logging as _logging
 from . import _levels  # noqa: F401  isort: skip  # it makes `_core` the best build for this CPU
 from . import _core
 from .camera import Camera
-from .enums import Path, Reason
+from .enums import Path, RayKind, Reason
 from .floats import gamma, intersect, next_float_down, next_float_up, spawn_origin
 from .frame import Frame
 from .handles import LightHandle, Object
@@ -53,7 +53,7 @@ from .renderer import Renderer, TraceResult, render
 from .reporting import report
 from .scene import Scene
 from .scene_file import load_scene
-from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Union
+from .shapes import Box, Cone, Cylinder, Difference, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Union
 from .tolerance import Tolerance
 from .transform import Transform
 
@@ -66,6 +66,7 @@ __all__ = [
     "Camera",
     "Cone",
     "Cylinder",
+    "Difference",
     "DirectionalLight",
     "Disk",
     "Frame",
@@ -80,6 +81,7 @@ __all__ = [
     "PointLight",
     "Polygon",
     "Quadric",
+    "RayKind",
     "Reason",
     "Renderer",
     "RunningError",

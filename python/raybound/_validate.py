@@ -11,10 +11,13 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Collection
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+
+from . import _core
 
 Vector = tuple[float, float, float]
 Colour = float | Vector
@@ -168,16 +171,86 @@ def rgb(who: str, name: str, value: object) -> Vector:
     return result if isinstance(result, tuple) else (result, result, result)
 
 
-def rays(who: str, origins: object, ends: object, *, end_name: str = "directions") -> tuple[FloatArray, FloatArray]:
-    """Two arrays (n, 3) of one length: origins with directions (none of them zero) or with targets."""
-    first = array(who, "origins", origins, shape=(None, 3), copy=False)
-    second = array(who, end_name, ends, shape=(None, 3), copy=False)
-    if len(first) != len(second):
-        raise ValueError(f"{who}: origins and {end_name} must have one length, got {len(first)} and {len(second)}")
+def vectors(who: str, name: str, value: object) -> FloatArray:
+    """An array (..., 3), rounded to float32; it may share the caller's memory. An empty list holds no vectors."""
+    expected = "an array of numbers with shape (..., 3)"
+    if isinstance(value, (list, tuple)) and len(value) == 0:
+        return np.empty((0, 3), np.float32)
+    given = numeric(who, name, value, expected)
+    if given.ndim == 0 or given.shape[-1] != 3:
+        raise ValueError(f"{who}: {name} must be {expected}, got {describe(value)}")
+    return _round(who, name, given, copy=False)
+
+
+def points(who: str, name: str, value: object) -> DoubleArray:
+    """An array (..., 3) of finite numbers, not rounded to float32. An empty list holds no points."""
+    expected = "an array of numbers with shape (..., 3)"
+    if isinstance(value, (list, tuple)) and len(value) == 0:
+        return np.empty((0, 3))
+    given = numeric(who, name, value, expected).astype(np.float64)
+    if given.ndim == 0 or given.shape[-1] != 3:
+        raise ValueError(f"{who}: {name} must be {expected}, got {describe(value)}")
+    good = np.isfinite(given)
+    if not good.all():
+        raise ValueError(f"{who}: {name} must be finite, got {_culprit(given, good)}")
+    return given
+
+
+@dataclass(frozen=True)
+class Rays:
+    """Where rays begin (points, or records of hits) and their directions or targets, as rows, and their shape before."""
+
+    origins: FloatArray | npt.NDArray[np.void]
+    ends: FloatArray
+    shape: tuple[int, ...]
+
+
+def rays(who: str, origins: object, ends: object, *, end_name: str = "directions") -> Rays:
+    """Origins (..., 3) or records of hits (...) that broadcast with directions, none of them zero, or with targets."""
+    second = vectors(who, end_name, ends)
+    if isinstance(origins, (np.ndarray, np.void)) and origins.dtype.names is not None:
+        first = _records(who, np.asarray(origins))
+        first_shape = first.shape
+    else:
+        first = vectors(who, "origins", origins)
+        first_shape = first.shape[:-1]
+    try:
+        shape = np.broadcast_shapes(first_shape, second.shape[:-1])
+    except ValueError:
+        raise ValueError(
+            f"{who}: origins and {end_name} must broadcast, got shapes {first.shape} and {second.shape}"
+        ) from None
     if end_name == "directions":
-        bad = np.flatnonzero(~second.any(axis=1))
+        bad = np.argwhere(~second.any(axis=-1))
         if bad.size:
-            raise ValueError(f"{who}: directions must be non-zero, got (0.0, 0.0, 0.0) at index {bad[0]}")
+            index = tuple(int(i) for i in bad[0])
+            where = f" at index {index[0] if len(index) == 1 else index}" if index else ""
+            raise ValueError(f"{who}: directions must be non-zero, got (0.0, 0.0, 0.0){where}")
+    tail = () if first.dtype.names else (3,)
+    return Rays(
+        np.ascontiguousarray(np.broadcast_to(first, shape + tail).reshape(-1, *tail)),
+        np.ascontiguousarray(np.broadcast_to(second, (*shape, 3)).reshape(-1, 3)),
+        shape,
+    )
+
+
+def _records(who: str, value: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
+    """Records of hits, as `Scene.intersect` returns them."""
+    if value.dtype != _core.hit_record:
+        raise ValueError(
+            f"{who}: origins must be points (..., 3) or the records of Scene.intersect, got records with the fields "
+            f"{', '.join(value.dtype.names or ())}"
+        )
+    return value
+
+
+def ray_rows(who: str, origins: object, directions: object) -> tuple[FloatArray, FloatArray]:
+    """Origins and directions (n, 3) of one length, no direction zero."""
+    first = array(who, "origins", origins, shape=(None, 3), copy=False)
+    second = array(who, "directions", directions, shape=(None, 3), copy=False)
+    if len(first) != len(second):
+        raise ValueError(f"{who}: origins and directions must have one length, got {len(first)} and {len(second)}")
+    rays(who, first, second)
     return first, second
 
 

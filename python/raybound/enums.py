@@ -31,3 +31,11 @@ class Reason(IntEnum):
     ERROR_BOUND = 8
     COST = 9
     UNSUPPORTED = 10
+
+
+class RayKind(IntEnum):
+    """What a ray is in its tree: the values of `kind` in `Renderer.paths`."""
+
+    EYE = 0  # the ray that was asked for
+    REFLECTED = 1
+    REFRACTED = 2

@@ -98,7 +98,7 @@ def intersect(
     (the origin of a ray spawned along the normal).
     """
     checked = _validate.instance("intersect", "shape", shape, Shape, "a Shape")
-    rays = _validate.rays("intersect", origins, directions)
+    rays = _validate.ray_rows("intersect", origins, directions)
     _validate.choice("intersect", "precision", precision, PRECISIONS)
     _validate.choice("intersect", "offsets", offsets, OFFSETS)
     return _core.intersect_shape(checked._native, *rays, precision, offsets)

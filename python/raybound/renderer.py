@@ -254,14 +254,45 @@ class Renderer:
     # Rays
 
     def trace(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> TraceResult:
-        """Traces any rays: `origins` and `directions` (n, 3), scene units, directions of any length but zero."""
+        """Traces any rays.
+
+        `origins` (..., 3), or (...) records of hits (see `Scene.intersect`), and `directions` (..., 3), of any length
+        but zero, scene units; both broadcast, and the arrays of the result have the shape of the rays. A record of a
+        miss sees the background. ValueError as for `Scene.intersect`.
+        """
         rays = _validate.rays("Renderer.trace", origins, directions)
         with self._busy("trace"):
             snapshot = self._scene._document.snapshot()
-            found = _core.trace(snapshot, *rays, max_depth=self._max_depth, threads=self._threads, progress=None)
-        count = len(rays[0])
-        bound, reason = np.zeros(count, np.float32), np.full(count, Reason.NONE, np.uint8)
-        return TraceResult(found["radiance"], bound, found["path"], reason, found["object_id"])
+            found = _core.trace(
+                snapshot, rays.origins, rays.ends, max_depth=self._max_depth, threads=self._threads, progress=None
+            )
+        bound, reason = np.zeros(rays.shape, np.float32), np.full(rays.shape, Reason.NONE, np.uint8)
+        return TraceResult(
+            found["radiance"].reshape((*rays.shape, 3)),
+            bound,
+            found["path"].reshape(rays.shape),
+            reason,
+            found["object_id"].reshape(rays.shape),
+        )
+
+    def paths(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.void]:
+        """The ray trees of any rays, for optics: where light that reaches each ray's origin has gone.
+
+        Arguments are those of `trace`; the rays count in C order of their shape. A tree is as deep as the renderer's
+        `max_depth`, and has no shadow rays.
+
+        Returns a structured array of segments, those of each ray together, each before those that it sends on:
+            ray (int32; the number of the ray), parent (int32; the number of the segment that it comes from, -1 for the
+            first), kind (uint8; a `RayKind`), depth (int32; 1 for the first), origin, point (3 float32; where it begins
+            and where it hits; for a miss its unit direction), t (float32, scene units; inf for a miss), object_id,
+            face_id (int32; -1 for a miss), weight (3 float32; what its radiance counts for in the ray's).
+        """
+        rays = _validate.rays("Renderer.paths", origins, directions)
+        with self._busy("paths"):
+            snapshot = self._scene._document.snapshot()
+            return _core.paths(
+                snapshot, rays.origins, rays.ends, max_depth=self._max_depth, threads=self._threads
+            )
 
     def linetrees(self, object: Object) -> npt.NDArray[np.void]:
         """The cells kept for an object, for pictures of the data structure: a structured array (n,).

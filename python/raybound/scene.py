@@ -58,6 +58,11 @@ class Scene:
 
         `name` must be unique among objects and lights (ValueError). `transform` goes from the shape's coordinates to
         the scene's and is rounded to float32.
+
+        Solids may touch. Where a ray leaves one solid and enters another at the same t, it crosses both: the entered
+        surface is seen, with the index of refraction relative to the solid that is left, whichever was added first.
+        Where it enters two at the same t, or meets open surfaces there (a picture on a wall), the one with the lowest
+        id is seen. Solids that overlap have no order: see `Material`.
         """
         shape = _validate.instance("Scene.add", "shape", shape, Shape, "a Shape")
         material = _validate.instance("Scene.add", "material", material, Material)
@@ -221,19 +226,65 @@ class Scene:
     # Queries
 
     def intersect(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.void]:
-        """The closest hits of rays, origins and directions (n, 3) in scene units, directions of any length but zero.
+        """The closest hits of rays.
 
-        Returns a structured array (n,): hit (bool), t, t_error (float32, in lengths of the direction), point,
-        point_error, normal (3 float32; the outward unit normal), uv (2 float32), object_id, face_id (int32). A miss has
-        t = inf, ids -1, and 0 elsewhere. Sees the scene as a renderer does.
+        Parameters
+        ----------
+        origins : (..., 3) array_like, or (...) records of hits
+            Scene units. From records, rays leave the hits' surfaces on the side that they go to: such a ray never meets
+            the surface that it leaves, and one that goes inward is inside of the solid until it leaves it. A record of
+            a miss starts no ray, and so is answered by a miss.
+        directions : (..., 3) array_like
+            Of any length but zero. Both broadcast: `scene.intersect(*camera.rays())` is a picture of records.
+
+        Returns a structured array (...) with the fields
+            hit (bool); t, t_error (float32, in lengths of the direction, from the ray's own origin); point, point_error,
+            normal (3 float32; the outward unit normal); uv (2 float32); object_id, face_id (int32); entering (bool; the
+            ray comes from outside of a solid, or from the side of a sheet's normal); within_id (int32; the closed solid
+            that the ray was inside of on its way, -1 if in none or in several at once); touching (bool; it leaves that
+            solid where it enters this one); direction (3 float32; the ray's, scaled by a power of two); seal (uint32; of the other fields, so that changed records are noticed).
+        A miss has t = inf, ids -1, and 0 elsewhere. Sees the scene as a renderer does.
+
+        ValueError for shapes that do not broadcast, zero directions, and records that were changed or that are not hits
+        of this scene as it is now.
         """
         rays = _validate.rays("Scene.intersect", origins, directions)
-        return self._document.snapshot().intersect(*rays)
+        return self._document.snapshot().intersect(rays.origins, rays.ends).reshape(rays.shape)
+
+    def intersect_all(
+        self, origins: npt.ArrayLike, directions: npt.ArrayLike
+    ) -> tuple[npt.NDArray[np.void], npt.NDArray[np.int64]]:
+        """Every crossing along each ray, in order: `records, offsets = scene.intersect_all(origins, directions)`.
+
+        Arguments are those of `intersect`. The n rays count in C order of their shape. The crossings of ray i are
+        `records[offsets[i]:offsets[i + 1]]`, records as `intersect` returns them, with every t along the ray as given;
+        offsets is (n + 1,) int64. Each closed solid is entered and left in turn. Where solids touch, the one is left
+        before the other is entered.
+        """
+        rays = _validate.rays("Scene.intersect_all", origins, directions)
+        return self._document.snapshot().intersect_all(rays.origins, rays.ends)
 
     def occluded(self, origins: npt.ArrayLike, targets: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Whether an object lies between each origin and its target, (n, 3) each, scene units. Returns (n,) bool."""
+        """Whether an object lies between each origin and its target. Returns a (...) bool array.
+
+        `targets` is (..., 3), scene units; `origins` is the same or (...) records of hits, and both broadcast. Points are
+        taken as they are: one that was computed on a surface may lie on either side of it. From records, rays leave the
+        surface toward the target, so `scene.occluded(hits, lamp)` is right for every hit; a miss sees everything.
+        ValueError as for `intersect`.
+        """
         segments = _validate.rays("Scene.occluded", origins, targets, end_name="targets")
-        return self._document.snapshot().occluded(*segments)
+        return self._document.snapshot().occluded(segments.origins, segments.ends).reshape(segments.shape)
+
+    def containing(self, points: npt.ArrayLike) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int64]]:
+        """The closed solids around each point: `object_ids, offsets = scene.containing(points)`.
+
+        `points` is (..., 3), scene units, rounded to float32; its n points count in C order. The ids of the objects that
+        hold point i, in order, are `object_ids[offsets[i]:offsets[i + 1]]`; offsets is (n + 1,) int64. Open surfaces
+        (disks, polygons, meshes with a border) hold nothing. Along any ray from a point, the solids around it are those
+        that are left once more often than they are entered.
+        """
+        checked = _validate.vectors("Scene.containing", "points", points)
+        return self._document.snapshot().containing(np.ascontiguousarray(checked.reshape(-1, 3)))
 
     # Copies, files, comparison
 

@@ -39,13 +39,13 @@ from .lights import DirectionalLight, Light, PointLight, SpotLight
 from .materials import Material, Texture
 from .meshes import Mesh
 from .scene import Scene
-from .shapes import Box, Cone, Cylinder, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Transformed, Union
+from .shapes import Box, Cone, Cylinder, Difference, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Transformed, Union
 from .transform import Transform
 
 FORMAT, VERSION = "raybound scene", 1
 SHAPES: dict[str, type[Shape]] = {
     cls.__name__: cls
-    for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Quadric, Mesh, Union, Intersection, Transformed)
+    for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Quadric, Mesh, Union, Intersection, Difference, Transformed)
 }
 LIGHTS: dict[str, type[Light]] = {cls.__name__: cls for cls in (DirectionalLight, PointLight, SpotLight)}
 T = TypeVar("T")
@@ -281,7 +281,7 @@ def _shape(d: object, meshes: list[Mesh], who: str) -> Shape:
         picked: Shape = _pick(f"{who}.mesh", found["mesh"], meshes)
         return picked
     arguments = _arguments(who, d, cls, ("type",))
-    if cls in (Union, Intersection):
+    if cls in (Union, Intersection, Difference):
         combined: Shape = _make(who, cls, *(_shape(part, meshes, at) for at, part in _items(who, arguments, "shapes")))
         return combined
     if cls is Transformed:

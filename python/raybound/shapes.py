@@ -35,6 +35,25 @@ class Shape(Value):
         """`a & b` is `Intersection(a, b)`; ValueError if one of them is not solid."""
         return Intersection(self, other) if isinstance(other, Shape) else NotImplemented
 
+    def __sub__(self, other: object) -> Difference:
+        """`a - b` is `Difference(a, b)`; ValueError if one of them is not solid, or nothing is left."""
+        return Difference(self, other) if isinstance(other, Shape) else NotImplemented
+
+    def contains(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Which points lie inside: `points` is (..., 3), scene units, float64; returns a (...) bool array.
+
+        ValueError for open surfaces: disks, polygons, and meshes with a border. Points within rounding of the surface
+        may count either way.
+        """
+        given = _validate.points(f"{type(self).__name__}.contains", "points", points)
+        rows = np.ascontiguousarray(given.reshape(-1, 3))
+        try:
+            return _core.shape_contains(self._native, rows).reshape(given.shape[:-1])
+        except ValueError:
+            raise ValueError(
+                f"{type(self).__name__}.contains: the shape must be closed, got {_validate.describe(self)}"
+            ) from None
+
 
 class Sphere(Shape):
     """A solid sphere. `center`: 3 numbers; `radius` > 0; scene units. ValueError, TypeError on bad input."""
@@ -157,7 +176,7 @@ class Quadric(Shape):
 
 
 class _Combination(Shape):
-    """What unions and intersections share: a tuple of shapes."""
+    """What unions, intersections and differences share: a tuple of shapes."""
 
     shapes: tuple[Shape, ...]
 
@@ -204,6 +223,22 @@ class Intersection(_Combination):
 
     def __init__(self, *shapes: Shape) -> None:
         self._set(_native=_core.csg_intersection(self._combine(shapes)))
+
+
+class Difference(_Combination):
+    """The first solid without the others, itself a solid: `Difference(a, b, ...)` or `a - b`.
+
+    `shapes` is the tuple of its parts. Faces count as for a union: those of the first part, then of the others, whose
+    normals point out of what is left. ValueError if a part is not solid, or if one of the others certainly holds all of
+    the first; TypeError if a part is not a shape.
+    """
+
+    def __init__(self, *shapes: Shape) -> None:
+        parts = self._combine(shapes)
+        for i, shape in enumerate(shapes[1:], 1):
+            if shape == shapes[0]:
+                raise ValueError(f"Difference: shape {i} must differ from shape 0, the difference encloses nothing")
+        self._set(_native=_core.csg_difference(parts))
 
 
 class Transformed(Shape):

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "raybound/frame/answers.h"
 #include "raybound/frame/stopwatch.h"
 
 namespace raybound {
@@ -13,13 +14,6 @@ namespace {
 template <class T, class S>
 void store(const Vec3<T>& v, S (&out)[3]) {
     for (int i = 0; i < 3; ++i) out[i] = S(v[i]);
-}
-
-template <class T>
-Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale, std::size_t index) {
-    if (!scale_direction(direction, scale))
-        throw std::invalid_argument("directions must not be zero, direction " + std::to_string(index) + " is");
-    return make_ray(origin, direction);
 }
 
 // Records whose bytes are all defined, padding too: equal answers are equal byte for byte.
@@ -38,22 +32,6 @@ std::int32_t object_id(const Snapshot& scene, const Nearest<float>& nearest) {
 template <class T>
 std::int32_t face_id(const Crossing<T>& crossing) {
     return crossing.face_offset + crossing.face;
-}
-
-void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const WideRay<float>& ray,
-                 float scale) {
-    constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
-    const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, ray.wide, {true, true});
-    record.hit = true;
-    record.t = minimum(at.t / scale, most);
-    record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
-    store(at.point, record.point);
-    store(at.point_error, record.point_error);
-    store(at.shading, record.normal);
-    record.uv[0] = at.uv.u;
-    record.uv[1] = at.uv.v;
-    record.object_id = object_id(scene, nearest);
-    record.face_id = face_id(nearest.crossing);
 }
 
 template <class T>
@@ -76,42 +54,55 @@ void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossin
           record.next_origin);
 }
 
-// Calls answer(i) for every i in [0, count), in chunks, on some threads (0: all cores).
-template <class Answer>
-void answer_all(std::size_t count, const Watch& watch, const Answer& answer, int threads = 0) {
-    constexpr std::size_t chunk = 512;
-    std::atomic<bool> cancelled = false;
-    const auto work = [&](int item, int) {
-        const std::size_t begin = std::size_t(item) * chunk;
-        for (std::size_t i = begin; i < std::min(count, begin + chunk); ++i) answer(i);
-    };
-    run_work(int((count + chunk - 1) / chunk), threads, cancelled, work, watch);
-}
-
 }  // namespace
 
-std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
+std::vector<HitRecord> intersect_rays(const Snapshot& scene, const RayOrigins& origins,
                                       std::span<const Vec3f> directions, const Watch& watch) {
-    auto records = blank_records<HitRecord>(origins.size());
+    std::vector<HitRecord> records(origins.size(), missed_record());
     answer_all(origins.size(), watch, [&](std::size_t i) {
-        records[i].t = infinity<float>;
-        records[i].object_id = records[i].face_id = -1;
         float scale;
-        const WideRay<float> ray(user_ray(origins[i], directions[i], scale, i));
-        const Nearest<float> nearest = closest_hit(scene, ray);
-        if (nearest.hit) fill_record(records[i], scene, nearest, ray, scale);
+        const RayStart start = origins.along(i, directions[i]);
+        const WideRay<float> ray(user_ray(start.origin, directions[i], scale, i));
+        if (!start.begins) return;
+        const Nearest<float> nearest = closest_hit(scene, ray, start.from);
+        if (nearest.hit) records[i] = hit_record(scene, nearest, ray, scale);
     });
     return records;
 }
 
-std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
-                                   std::span<const Vec3f> targets, const Watch& watch) {
+std::vector<std::uint8_t> occluded(const Snapshot& scene, const RayOrigins& origins, std::span<const Vec3f> targets,
+                                   const Watch& watch) {
     std::vector<std::uint8_t> blocked(origins.size());
     answer_all(origins.size(), watch, [&](std::size_t i) {
-        if (origins[i] == targets[i]) return;
-        blocked[i] = is_blocked(scene, WideRay<float>::segment(origins[i], targets[i]), {}, nullptr);
+        const RayStart start = origins.toward(i, targets[i]);
+        if (!start.begins || start.origin == targets[i]) return;
+        blocked[i] = is_blocked(scene, WideRay<float>::segment(start.origin, targets[i]), start.from, nullptr);
     });
     return blocked;
+}
+
+Containing containing(const Snapshot& scene, std::span<const Vec3f> points, const Watch& watch) {
+    std::vector<std::vector<std::int32_t>> found(points.size());
+    answer_all(points.size(), watch, [&](std::size_t i) {
+        visit_containing(scene, points[i], [&](std::uint32_t primitive) {
+            found[i].push_back(scene.objects()[scene.geometry().primitives[primitive].object].id);
+        });
+        std::ranges::sort(found[i]);
+    });
+    Containing all;
+    all.offsets = append_all(found, all.object_ids);
+    return all;
+}
+
+std::vector<std::uint8_t> shape_contains(const Shape& shape, std::span<const Vec3d> points, const Watch& watch) {
+    Geometry geometry;
+    add_primitive(geometry, 0, shape, {});
+    const Primitive& primitive = geometry.primitives.front();
+    if (!is_closed(geometry, primitive))
+        throw std::invalid_argument("contains: the shape must be closed, a disk, polygon or mesh with a border is open");
+    std::vector<std::uint8_t> inside(points.size());
+    answer_all(points.size(), watch, [&](std::size_t i) { inside[i] = contains(geometry, primitive, points[i]); });
+    return inside;
 }
 
 ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions,

@@ -5,26 +5,38 @@
 #include <span>
 
 #include "raybound/frame/camera.h"
+#include "raybound/frame/hit_record.h"
 #include "raybound/frame/offsets.h"
 #include "raybound/frame/work_queue.h"
 
 namespace raybound {
 
-// One answer. A miss has t infinite, ids -1 and zeros.
-struct HitRecord {
-    bool hit;
-    float t, t_error;
-    float point[3], point_error[3], normal[3], uv[2];
-    std::int32_t object_id, face_id;
-};
-
-// t is in units of each direction's length. Throws std::invalid_argument for a zero direction.
-std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
+// The closest hits. t is in units of each direction's length. Throws std::invalid_argument for a zero direction.
+std::vector<HitRecord> intersect_rays(const Snapshot& scene, const RayOrigins& origins,
                                       std::span<const Vec3f> directions, const Watch& watch);
 
-// Is there anything certainly between origin and target? Origins are taken as they are, nothing is offset.
-std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
-                                   std::span<const Vec3f> targets, const Watch& watch);
+// Every crossing along each ray, in order: those of ray i are records[offsets[i]] to records[offsets[i + 1]]. All lie on
+// the ray as it is given. Each closed solid's alternate, and the number is even unless the ray begins in it.
+struct AllHits {
+    std::vector<HitRecord> records;
+    std::vector<std::int64_t> offsets;
+};
+AllHits intersect_all(const Snapshot& scene, const RayOrigins& origins, std::span<const Vec3f> directions,
+                      const Watch& watch);
+
+// The ids of the closed solids around each point, in order: those of point i are ids[offsets[i]] to ids[offsets[i + 1]].
+struct Containing {
+    std::vector<std::int32_t> object_ids;
+    std::vector<std::int64_t> offsets;
+};
+Containing containing(const Snapshot& scene, std::span<const Vec3f> points, const Watch& watch);
+
+// Is there anything certainly between origin and target? Points are taken as they are, nothing is offset.
+std::vector<std::uint8_t> occluded(const Snapshot& scene, const RayOrigins& origins, std::span<const Vec3f> targets,
+                                   const Watch& watch);
+
+// Which points lie in a closed shape. Throws std::invalid_argument if it is open.
+std::vector<std::uint8_t> shape_contains(const Shape& shape, std::span<const Vec3d> points, const Watch& watch);
 
 // The searches alone, without points, bounds and shading, on some threads (0: all cores), and the seconds they took: to
 // measure them. t, in units of each direction's length, is the one that searches compare.

@@ -132,32 +132,4 @@ RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffer
     return render_with<float>(scene, camera, buffers, settings, watch);
 }
 
-TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, std::vector<Vec3f> directions,
-                      const RenderSettings& settings, const Watch& watch) {
-    for (std::size_t i = 0; i < directions.size(); ++i)
-        if (!unit_direction(directions[i]))
-            throw std::invalid_argument("Renderer.trace: directions must not be zero, direction " + std::to_string(i) +
-                                        " is");
-    constexpr int chunk = 256;
-    const int count = int(origins.size());
-    TracedRays result{std::vector<Vec3f>(origins.size()),
-                      std::vector<std::int32_t>(origins.size()),
-                      std::vector<float>(origins.size()),
-                      {}};
-    std::atomic<bool> cancelled = false;
-    auto tracers = make_tracers<float>(scene, settings, cancelled);
-    const auto work = [&](int item, int worker) {
-        for (int i = item * chunk; i < std::min(count, (item + 1) * chunk) && !cancelled; ++i) {
-            const auto at = std::size_t(i);
-            const auto sample = tracers[std::size_t(worker)].sample(origins[at], directions[at], departure_at(scene, origins[at]));
-            result.radiance[at] = sample.radiance;
-            result.object_id[at] = sample.object;
-            result.t[at] = sample.t;
-        }
-    };
-    result.statistics.threads = run_work((count + chunk - 1) / chunk, settings.threads, cancelled, work, watch);
-    result.statistics.rays = total(tracers);
-    return result;
-}
-
 }  // namespace raybound

@@ -4,6 +4,7 @@
 #include "raybound/certify/exact_tracer.h"
 #include "raybound/frame/buffers.h"
 #include "raybound/frame/camera.h"
+#include "raybound/frame/hit_record.h"
 #include "raybound/frame/work_queue.h"
 #include "raybound/trace/tracer.h"
 
@@ -46,7 +47,20 @@ struct TracedRays {
     std::vector<float> t;
     RenderStatistics statistics;
 };
-TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, std::vector<Vec3f> directions,
+TracedRays trace_rays(const Snapshot& scene, const RayOrigins& origins, std::vector<Vec3f> directions,
                       const RenderSettings& settings, const Watch& watch);
+
+// The ray trees of any rays, one segment after the other: each tree in order of depth first, reflected rays before
+// refracted ones.
+struct PathRecord {
+    std::int32_t ray, parent;  // the number of the ray, and of the segment that it comes from, or -1
+    std::uint8_t kind;         // RayKind
+    std::int32_t depth;        // 1 for the first segment
+    float origin[3], point[3], t;
+    std::int32_t object_id, face_id;
+    float weight[3];  // of what it sees in the first one's radiance
+};
+std::vector<PathRecord> trace_paths(const Snapshot& scene, const RayOrigins& origins, std::vector<Vec3f> directions,
+                                    const RenderSettings& settings, const Watch& watch);
 
 }  // namespace raybound

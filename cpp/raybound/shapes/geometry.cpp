@@ -235,6 +235,24 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
     return conservative_box({box.lower - margin, box.upper + margin});
 }
 
+LeafFace leaf_of_node(const Geometry& geometry, std::uint32_t node_index, std::int32_t face) {
+    const CsgNode& node = geometry.csg_nodes[node_index];
+    if (node.kind == CsgKind::leaf) return {node.first, node.face_offset};
+    // Faces count one after the other: the last child that begins at the face or before.
+    const auto first_face = [&](std::uint32_t index) {
+        while (geometry.csg_nodes[index].kind != CsgKind::leaf)
+            index = geometry.csg_children[geometry.csg_nodes[index].first];
+        return geometry.csg_nodes[index].face_offset;
+    };
+    std::uint32_t child = geometry.csg_children[node.first];
+    for (std::uint32_t i = 1; i < node.count; ++i) {
+        const std::uint32_t next = geometry.csg_children[node.first + i];
+        if (first_face(next) > face) break;
+        child = next;
+    }
+    return leaf_of_node(geometry, child, face);
+}
+
 }  // namespace
 
 std::size_t Geometry::bytes() const {
@@ -242,6 +260,10 @@ std::size_t Geometry::bytes() const {
            polygons.size() * sizeof(PolygonPlane) + vertices.size() * sizeof(Vec3d) +
            meshes.size() * sizeof(MeshInstance) + quadrics.size() * sizeof(Quadric) +
            csg_nodes.size() * sizeof(CsgNode) + csg_children.size() * sizeof(std::uint32_t);
+}
+
+LeafFace leaf_of_face(const Geometry& geometry, const Primitive& primitive, std::int32_t face) {
+    return primitive.is_csg ? leaf_of_node(geometry, primitive.root, face) : LeafFace{primitive.root, 0};
 }
 
 void replace_primitive(Geometry& geometry, std::uint32_t index, const Shape& shape, const Affine& placement) {

@@ -52,7 +52,7 @@ inline bool is_sheet(const Leaf& leaf) { return leaf.kind == LeafKind::disk || l
 
 // (What is curved of a solid is its face 0.)
 inline bool is_flat_face(const Leaf& leaf, int face) {
-    return face != 0 || leaf.kind == LeafKind::box || is_sheet(leaf);
+    return face != 0 || leaf.kind == LeafKind::box || leaf.kind == LeafKind::mesh || is_sheet(leaf);
 }
 
 enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection, csg_difference };
@@ -97,6 +97,13 @@ inline bool is_closed(const Geometry& geometry, const Primitive& primitive) {
     const Leaf& leaf = geometry.leaves[primitive.root];
     return leaf.kind == LeafKind::mesh ? geometry.meshes[leaf.polygon].data->is_closed() : !is_sheet(leaf);
 }
+
+// The leaf of a primitive's face, and the number of the leaf's first face.
+struct LeafFace {
+    std::uint32_t leaf;
+    std::int32_t face_offset;
+};
+LeafFace leaf_of_face(const Geometry& geometry, const Primitive& primitive, std::int32_t face);
 
 // Adds a placed shape as one primitive of `object`. Throws std::invalid_argument if it cannot be placed so.
 void add_primitive(Geometry& geometry, std::uint32_t object, const Shape& shape, const Affine& placement);

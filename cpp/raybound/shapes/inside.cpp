@@ -195,14 +195,15 @@ class NextCrossing {
         return best;
     }
 
-    // The next stretch that the ray comes to, its first one if it begins within rounding of it. `outside`: it cannot be
-    // inside of the solid; if it may, that stretch counts, too, and its way in lies behind.
-    const Stretch* entry(bool outside) const {
+    // The next stretch that the ray comes to, its first one if it begins within rounding of it. One that it may just have
+    // left, as it is over within rounding, is passed by. `outside`: it cannot be inside of the solid; if it may, that
+    // stretch counts, too, and its way in lies behind.
+    const Stretch* entry(bool outside, bool left) const {
         std::size_t first = 0;
         for (std::size_t k = 0; k < stretches_.size(); ++k)
             if (begins_on(stretches_[k].out) && std::abs(stretches_[k].out.t) <= 2 * near_) first = k + 1;
         for (const Stretch& s : stretches_.subspan(first)) {
-            if (s.out.t <= 0) continue;
+            if (s.out.t <= (left ? 2 * near_ : 0)) continue;
             if (s.in.t > 0) return &s;
             const bool near_in = -s.in.t <= near_ && !begins_on(s.in), near_out = s.out.t <= near_;
             if (near_in && (!near_out || -s.in.t <= s.out.t)) return &s;
@@ -248,7 +249,7 @@ Crossing<Wide<T>> crossing_from_outside(const Geometry& geometry, const Primitiv
     const std::vector<Stretch> stretches = stretches_of(geometry, primitive, ray.wide);
     const bool outside = left || std::abs(depth_of(geometry, primitive, ray.wide.origin)) <= rounding;
     const NextCrossing next(stretches, from, near);
-    const Stretch* found = next.entry(outside);
+    const Stretch* found = next.entry(outside, left);
     if (!found) return no_crossing();
     return !outside && next.is_inside(*found) ? found->out : ahead(found->in);
 }

@@ -46,4 +46,7 @@ struct Stretch {
 };
 std::vector<Stretch> stretches_of(const Geometry& geometry, const Primitive& primitive, const Ray<double>& ray);
 
+// The faces of a mesh that a ray crosses ahead of its origin, in order.
+std::vector<Crossing<double>> mesh_crossings_ahead(const Geometry& geometry, std::uint32_t leaf, const Ray<double>& ray);
+
 }  // namespace raybound

@@ -45,7 +45,7 @@ struct LineCrossings {
 };
 
 void add_crossings(const Geometry& geometry, std::uint32_t index, const Ray<double>& ray, bool backward,
-                   std::vector<Crossing<double>>& found) {
+                   bool only_ahead, std::vector<Crossing<double>>& found) {
     const Leaf& leaf = geometry.leaves[index];
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
     const MeshRay<float> line(geometry, leaf, backward ? Ray<double>{ray.origin, -ray.direction} : ray);
@@ -54,14 +54,14 @@ void add_crossings(const Geometry& geometry, std::uint32_t index, const Ray<doub
         for (std::uint32_t lanes = may_cross(pack, line.packs, everywhere); lanes != 0;) {
             const auto face = std::int32_t(pack.id[std::size_t(bvh::take_lowest(lanes))]);
             const Piercing p = pierce_face(mesh.corners<double>(face), line.line);
-            if (p.met) found.push_back({backward ? -p.t : p.t, index, face, 0, true, p.entering != backward});
+            if (p.met && (!only_ahead || p.hit)) found.push_back({backward ? -p.t : p.t, index, face, 0, true, p.entering != backward});
         }
     });
 }
 
 LineCrossings line_crossings(const Geometry& geometry, std::uint32_t index, const Ray<double>& ray) {
     std::vector<Crossing<double>> found;
-    for (const bool backward : {false, true}) add_crossings(geometry, index, ray, backward, found);
+    for (const bool backward : {false, true}) add_crossings(geometry, index, ray, backward, false, found);
     std::ranges::stable_sort(found, {}, &Crossing<double>::face);
     const auto same = std::ranges::unique(found, {}, &Crossing<double>::face);
     found.erase(same.begin(), same.end());
@@ -89,6 +89,14 @@ std::vector<Stretch> mesh_stretches(const Geometry& geometry, std::uint32_t inde
 }
 
 }  // namespace
+
+std::vector<Crossing<double>> mesh_crossings_ahead(const Geometry& geometry, std::uint32_t leaf,
+                                                   const Ray<double>& ray) {
+    std::vector<Crossing<double>> found;
+    add_crossings(geometry, leaf, ray, false, true, found);
+    std::ranges::stable_sort(found, {}, &Crossing<double>::t);
+    return found;
+}
 
 std::vector<Stretch> stretches_of(const Geometry& geometry, const Primitive& primitive, const Ray<double>& ray) {
     if (primitive.is_csg) return csg_stretches(geometry, primitive.root, ray);

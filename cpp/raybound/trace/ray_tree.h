@@ -21,6 +21,7 @@ struct RayTreeLight {
 struct RayTreeNode {
     RayKind kind = RayKind::eye;
     Vec3d origin, direction, point, normal, radiance;
+    Vec3d weight{1, 1, 1};  // of its radiance in that of the whole tree
     double t = 0;
     bool hit = false, total_internal_reflection = false;
     std::int32_t object = -1, face = -1;
@@ -30,16 +31,22 @@ struct RayTreeNode {
 
 struct NoRecord {
     static constexpr bool active = false;
-    NoRecord child(RayKind) const { return {}; }
+    template <class T>
+    NoRecord child(RayKind, const Vec3<T>&) const {
+        return {};
+    }
 };
 
 struct RecordTree {
     static constexpr bool active = true;
     RayTreeNode* node;
 
-    RecordTree child(RayKind kind) const {
-        node->children.emplace_back().kind = kind;
-        return {&node->children.back()};
+    template <class T>
+    RecordTree child(RayKind kind, const Vec3<T>& weight) const {
+        RayTreeNode& child = node->children.emplace_back();
+        child.kind = kind;
+        child.weight = node->weight * Vec3d(weight);
+        return {&child};
     }
 };
 

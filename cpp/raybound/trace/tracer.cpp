@@ -123,13 +123,13 @@ Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const 
     if (max_component(rays.reflect) > T(0)) {
         ++counts_.reflected;
         const WideRay<T> next(at.origin, rays.reflected);
-        const Vec3<T> seen = radiance(next, at.leaving.outer, depth + 1, record.child(RayKind::reflected), nullptr);
+        const Vec3<T> seen = radiance(next, at.leaving.outer, depth + 1, record.child(RayKind::reflected, rays.reflect), nullptr);
         sum = saturate(sum + rays.reflect * seen);
     }
     if (max_component(rays.transmit) > T(0)) {
         ++counts_.refracted;
         const WideRay<T> next(offset_origin(at.hit.point, at.hit.point_error, -at.side), rays.refracted);
-        const Vec3<T> seen = radiance(next, at.leaving.inner, depth + 1, record.child(RayKind::refracted), nullptr);
+        const Vec3<T> seen = radiance(next, at.leaving.inner, depth + 1, record.child(RayKind::refracted, rays.transmit), nullptr);
         sum = saturate(sum + rays.transmit * seen);
     }
     return sum;
