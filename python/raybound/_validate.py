@@ -234,9 +234,16 @@ def rays(who: str, origins: object, ends: object, *, end_name: str = "directions
     )
 
 
+def _fields(dtype: np.dtype[Any]) -> list[tuple[str, np.dtype[Any]]]:
+    return [(name, dtype[name]) for name in dtype.names or ()]
+
+
 def _records(who: str, value: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
     """Records of hits, as `Scene.intersect` returns them."""
-    if value.dtype != _core.hit_record:
+    ours = _core.hit_record
+    if value.dtype != ours and _fields(value.dtype) == _fields(ours):
+        return value.astype(ours)  # np.stack and the like drop the padding
+    if value.dtype != ours:
         raise ValueError(
             f"{who}: origins must be points (..., 3) or the records of Scene.intersect, got records with the fields "
             f"{', '.join(value.dtype.names or ())}"

@@ -89,21 +89,6 @@ def test_epsilons_do_fail() -> None:
         assert near["self_hits"] > 0.002 * near["spawned"] > 0
 
 
-ORIGINS = json.loads((ROOT / "tests" / "corpus" / "origins.json").read_text())
-
-
-@pytest.mark.xfail(reason="origins are moved for the tangent plane: sideways rounding and curvature may undo it inside")
-@pytest.mark.parametrize("case", ORIGINS, ids=[case["why"] for case in ORIGINS])
-def test_rays_into_a_far_sphere_leave_it_next(case: dict[str, Any]) -> None:
-    shape = eval(case["shape"], {"__builtins__": {}}, {"Sphere": rb.Sphere})
-    hit = rb.intersect(shape, [case["origin"]], [case["direction"]])[0]
-    way = np.float32(case["way"])
-    assert hit["hit"]
-    assert np.dot(way, hit["normal"]) < -0.1
-    inner = rb.spawn_origin(hit["point"], hit["point_error"], hit["normal"], way)
-    assert np.dot(rb.intersect(shape, [inner], [way])[0]["normal"], way) > 0
-
-
 class Broken(Policy):
     """Answers that are spoilt on the way."""
 

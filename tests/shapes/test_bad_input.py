@@ -135,7 +135,7 @@ def test_any_number_type_and_any_strides_will_do(dtype: type) -> None:
     assert rb.Polygon(np.array(SQUARE, dtype)[::-1]) == rb.Polygon(SQUARE[::-1])
 
 
-@pytest.mark.parametrize("operation", [rb.Union, rb.Intersection])
+@pytest.mark.parametrize("operation", [rb.Union, rb.Intersection, rb.Difference])
 def test_combinations(operation: type) -> None:
     name = operation.__name__
     refused(lambda: operation(), name)

@@ -23,7 +23,7 @@ def test_first_boundary_is_the_first_change_of_membership(grid: bool, distance: 
             check_expression(tally, shape, *aimed_rays(rng, shape, 40, distance, 1.1))
     assert tally.counts["wrong"] == 0, str(tally)
     assert tally.counts["within rounding"] <= 1e-3 * tally.counts["rays"]  # seen: 1 of 3200
-    assert tally.counts["hits"] >= 0.3 * tally.counts["rays"]
+    assert tally.counts["hits"] >= 0.25 * tally.counts["rays"]
     assert tally.counts["from inside"] >= (0.15 * tally.counts["rays"] if distance == 0 else 0)
 
 

@@ -213,6 +213,7 @@ class Chains:
     """What marching found: rays whose crossings did not alternate, did not end outside, or faced the wrong way."""
 
     hits: int
+    passed: int  # rays that have met the solid and ended outside
     broken: npt.NDArray[np.int64]
     why: list[str]
 
@@ -221,6 +222,7 @@ def march(scene: rb.Scene, origins: npt.NDArray[np.float32], directions: npt.NDA
     """Straight through: each hit starts the next ray, along the same direction."""
     alive = np.arange(len(origins))
     inside = np.diff(scene.containing(origins)[1]) == 1
+    crossed = np.zeros(len(origins), bool)
     broken: dict[int, str] = {}
     total = 0
     records = scene.intersect(origins, directions)
@@ -236,8 +238,9 @@ def march(scene: rb.Scene, origins: npt.NDArray[np.float32], directions: npt.NDA
         for i in alive[wrong]:
             broken.setdefault(int(i), "does not alternate")
         inside[alive] = records["entering"]
+        crossed[alive] |= ~records["entering"]
         records = scene.intersect(records, directions[alive])
     for i in alive:
         broken.setdefault(int(i), "never ends")
     rows = np.array(sorted(broken), np.int64)
-    return Chains(total, rows, [broken[int(i)] for i in rows])
+    return Chains(total, int(crossed.sum()), rows, [broken[int(i)] for i in rows])

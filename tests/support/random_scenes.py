@@ -83,6 +83,66 @@ def csg(rng: Rng) -> rb.Shape:
     return overlap | solid(rng) if rng.random() < 0.3 else overlap
 
 
+def difference(rng: Rng) -> rb.Shape:
+    """A solid with a ball or a box taken out of it, sometimes put back in part."""
+    first = solid(rng)
+    middle = np.mean(first.bounds, axis=0)
+    extent = float(np.min(first.bounds[1] - first.bounds[0]))
+    away: rb.Shape = rb.Sphere(near(rng, tuple(middle.tolist()), extent * 0.3), extent * float(rng.uniform(0.2, 0.45)))
+    if rng.random() < 0.3:
+        away = away - rb.Box(tuple((middle - extent * 0.1).tolist()), tuple((middle + extent * 0.2).tolist()))
+    return first - away
+
+
+def touching(rng: Rng) -> list[rb.Shape]:
+    """Solids that share faces, rims or points, or the same one twice."""
+    at, r = np.array(point(rng, 2.0)), size(rng)
+
+    def moved(x: float, y: float, z: float) -> tuple[float, ...]:
+        return tuple((at + [x, y, z]).tolist())
+
+    block = rb.Box(moved(-r, -r, -r), moved(r, r, 0))
+    kind = int(rng.integers(7))
+    if kind == 0:
+        return [block, rb.Box(moved(-r / 2, -r, 0), moved(2 * r, r, r))]
+    if kind == 1:
+        return [block, rb.Cylinder(moved(0, 0, 0), moved(0, 0, r), radius=r), rb.Cone(moved(0, 0, r), moved(0, 0, 2 * r), radius=r)]
+    if kind == 2:
+        return [rb.Box(moved(-r, -r, -r), moved(r, r, r)) - rb.Sphere(moved(0, 0, 0), r * 0.8), rb.Sphere(moved(0, 0, 0), r * 0.8)]
+    if kind == 3:
+        return [block, rb.Sphere(moved(0, 0, r), r)]
+    if kind == 4:
+        first = solid(rng)
+        return [first, first]
+    if kind == 5:
+        ball = rb.Sphere(moved(0, 0, 0), r)
+        return [ball & block, ball - block]
+    corners = np.array([[x, y, z] for x in (-r, r) for y in (-r, r) for z in (0, r)]) + at
+    faces = [[0, 2, 4], [4, 2, 6], [1, 5, 3], [5, 7, 3], [0, 4, 1], [4, 5, 1], [2, 3, 6], [6, 3, 7], [0, 1, 2], [2, 1, 3], [4, 6, 5], [6, 7, 5]]
+    faces = [face if _outward(corners, face, at + [0, 0, r / 2]) else face[::-1] for face in faces]
+    return [block, rb.Mesh(corners, faces)]
+
+
+def _outward(corners: np.ndarray, face: list[int], middle: np.ndarray) -> bool:
+    a, b, c = corners[face]
+    return bool(np.dot(np.cross(b - a, c - a), a - middle) > 0)
+
+
+def glass(rng: Rng) -> rb.Material:
+    return rb.Material(0.1, reflect=0.2, transmit=float(rng.uniform(0.5, 0.8)), ior=float(rng.choice([1.5, 1.33, 1.0, 2.4])))
+
+
+def add_close_ones(scene: rb.Scene, seed: int) -> None:
+    """Differences, and solids that touch or coincide, most of them of glass; sometimes glass around the eye."""
+    rng = np.random.default_rng([seed, 20261])
+    shapes = [difference(rng), *touching(rng), *touching(rng)]
+    for shape in shapes:
+        scene.add(shape, glass(rng) if rng.random() < 0.7 else material(rng))
+    assert scene.camera is not None
+    if rng.random() < 0.25:
+        scene.add(rb.Sphere(scene.camera.eye, float(rng.uniform(0.1, 1))), glass(rng))
+
+
 def transform(rng: Rng) -> rb.Transform | None:
     if rng.random() < 0.5:
         return None
@@ -124,7 +184,10 @@ MAKERS = (sphere, box, cylinder, cone, disk, polygon, quadric, csg)
 
 
 def random_scene(seed: int, objects: int = 24, pixels: int = 48) -> rb.Scene:
-    """A scene with its camera: each kind of shape at least once, 1 to 4 lights, a floor every other time."""
+    """A scene with its camera: each kind of shape at least once, 1 to 4 lights, a floor every other time.
+
+    A third of the scenes also have solids that touch, coincide or have been taken from each other.
+    """
     rng = np.random.default_rng([seed, 20240])
     scene = rb.Scene(ambient=0.1, background=tuple(rng.uniform(0, 0.5, 3).tolist()))
     kinds = [*MAKERS, *(MAKERS[int(k)] for k in rng.integers(len(MAKERS), size=objects - len(MAKERS)))]
@@ -138,4 +201,6 @@ def random_scene(seed: int, objects: int = 24, pixels: int = 48) -> rb.Scene:
     eye[2] = abs(eye[2])  # above the floor
     eye = tuple((7.5 * eye / np.linalg.norm(eye)).tolist())
     scene.camera = rb.Camera(eye, point(rng, 1.0), fov=float(rng.uniform(35, 70)), width=pixels, height=pixels * 3 // 4)
+    if seed % 3 == 2:
+        add_close_ones(scene, seed)
     return scene

@@ -37,9 +37,10 @@ def expression(rng: Rng, depth: int, *, grid: bool) -> rb.Shape:
         return grid_solid(rng) if grid else free_solid(rng)
     parts = [expression(rng, depth - 1, grid=grid) for _ in range(rng.integers(2, 4))]
     shape: rb.Shape = rb.Union(*parts)
-    if rng.random() < 0.45:
-        with contextlib.suppress(ValueError):  # disjoint
-            shape = rb.Intersection(*parts)
+    choice = rng.random()
+    if choice < 0.6:
+        with contextlib.suppress(ValueError):  # disjoint, or nothing left
+            shape = rb.Intersection(*parts) if choice < 0.3 else rb.Difference(*parts)
     if rng.random() < 0.3:
         shape = shape.transformed(rb.Transform.rotate(rng.uniform(0, 360), unit(rng)))
     return shape

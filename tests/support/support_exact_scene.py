@@ -29,7 +29,7 @@ class Thing:
 
 def is_known(shape: Any) -> bool:
     """Whether the oracle knows the shape and its parts."""
-    if isinstance(shape, (rb.Union, rb.Intersection)):
+    if isinstance(shape, (rb.Union, rb.Intersection, rb.Difference)):
         return all(is_known(part) for part in shape.shapes)
     return is_known(shape.shape) if hasattr(shape, "transform") else isinstance(shape, KNOWN)
 

@@ -206,3 +206,34 @@ def first_faces(all_corners: list[Any], o: Any, d: Any) -> dict[int, Crossed]:
     ahead = {i: x for i, x in found.items() if x is not None and x.t > 0}
     first = min((x.t for x in ahead.values()), default=None)
     return {i: x for i, x in ahead.items() if x.t == first}
+
+
+def moved_first_faces(all_corners: list[Any], o: Any, d: Any) -> dict[int, Crossed]:
+    """The faces that the line meets first, up to e, when it is moved across its direction by (e, e^2): how closed meshes
+    decide about lines through edges and corners, so that what is entered is left."""
+    size = np.abs(np.asarray(d, float))
+    z = 2 if size[2] >= max(size[0], size[1]) else 1 if size[1] >= size[0] else 0
+    origin, direction = exact_vector(o), exact_vector(d)
+    least = Fraction(1, 2**400)
+    origin[(z + 1) % 3] += least
+    origin[(z + 2) % 3] += least * least
+    found = {i: cross_face(corners, origin, direction) for i, corners in enumerate(all_corners)}
+    ahead = {i: x for i, x in found.items() if x is not None and x.t > Fraction(1, 2**200)}
+    first = min((x.t for x in ahead.values()), default=None)
+    return {i: x for i, x in ahead.items() if first is not None and x.t - first < Fraction(1, 2**200)}
+
+
+def is_closed(shape: rb.Shape) -> bool:
+    try:
+        shape.contains([0.0, 0.0, 0.0])
+    except ValueError:
+        return False
+    return True
+
+
+def expected_faces(shape: rb.Shape, all_corners: list[Any], o: Any, d: Any) -> dict[int, Crossed]:
+    """The faces that a mesh in its own coordinates may be said to meet first."""
+    first = first_faces(all_corners, o, d)
+    if is_closed(shape) and any(min(x.weights) == 0 for x in first.values()):
+        return moved_first_faces(all_corners, o, d)
+    return first

@@ -190,7 +190,7 @@ class Model:
     """A shape for the oracle: leaves, and the expression that says which points belong."""
 
     leaves: list[Leaf] = field(default_factory=list)
-    member: Any = None  # ("leaf", i) | ("union", [...]) | ("intersection", [...])
+    member: Any = None  # ("leaf", i) | ("union" | "intersection" | "difference", [...])
 
     def leaf_of_face(self, face: int) -> Leaf:
         return next(x for x in self.leaves if x.first_face <= face < x.first_face + x.face_count)
@@ -222,7 +222,7 @@ def build(shape: Any, number: Callable[[float], Any] = arb) -> Model:
         if hasattr(s, "transform"):
             return visit(s.shape, compose(placement, s.transform.matrix, number))
         if hasattr(s, "shapes"):
-            kind = "union" if isinstance(s, rb.Union) else "intersection"
+            kind = {rb.Union: "union", rb.Intersection: "intersection", rb.Difference: "difference"}[type(s)]
             return kind, [visit(part, placement) for part in s.shapes]
         forms, count = FORMS[type(s)]
         linear, offset = placement or (None, None)
@@ -259,6 +259,8 @@ def is_member(member: Any, inside: list[bool]) -> bool:
     kind, parts = member
     if kind == "leaf":
         return inside[parts]
+    if kind == "difference":
+        return is_member(parts[0], inside) and not any(is_member(part, inside) for part in parts[1:])
     combine = any if kind == "union" else all
     return combine(is_member(part, inside) for part in parts)
 

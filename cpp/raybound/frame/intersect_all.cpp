@@ -14,6 +14,7 @@ struct RayCrossing {
     Crossing<double> crossing;
     std::uint32_t primitive;
     float t;
+    int level = 1;  // the order of those at one t: solids are left, then entered; one after the other in each solid
 };
 
 // What a ray crosses, ahead of where it begins.
@@ -39,15 +40,18 @@ class Crossings {
     }
 
   private:
-    // By t; where solids touch, one is left before another is entered.
-    std::tuple<float, bool, Rank> order(const RayCrossing& c) const {
-        const bool enters = c.crossing.entering && is_closed(geometry_, geometry_.primitives[c.primitive]);
-        return {c.t, enters, rank(geometry_, c.primitive, c.crossing.face_offset + c.crossing.face)};
+    std::tuple<float, int, Rank> order(const RayCrossing& c) const {
+        return {c.t, c.level, rank(geometry_, c.primitive, c.crossing.face_offset + c.crossing.face)};
     }
 
+    // (Those of one solid come one after the other.)
     void add(std::uint32_t primitive, const Crossing<double>& crossing) {
         const auto t = float(crossing.t);
-        if (t < infinity<float>) found_.push_back({crossing, primitive, t});
+        if (!(t < infinity<float>)) return;
+        const bool again = !found_.empty() && found_.back().primitive == primitive && found_.back().t == t;
+        const bool closed = is_closed(geometry_, geometry_.primitives[primitive]);
+        const int level = again && closed ? found_.back().level + 1 : crossing.entering || !closed ? 1 : 0;
+        found_.push_back({crossing, primitive, t, level});
     }
 
     // The next crossing as any search finds it, and the stretches of the line that lie beyond.
