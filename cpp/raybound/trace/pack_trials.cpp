@@ -36,19 +36,29 @@ void fill(PackHit& record, const SurfacePoint<float>& at) {
     store(record.inner, offset_origin(at.point, at.point_error, -at.normal));
 }
 
+// The first crossing by the kernels for one ray, which know nothing of where it comes from.
 PackHit single_hit(const Snapshot& scene, const WideRay<float>& ray) {
-    const Nearest<float> nearest = closest_hit(scene, ray);
+    const Geometry& geometry = scene.geometry();
+    NearestPack nearest{};  // its first lane
+    for (std::uint32_t i = 0; i < geometry.primitives.size(); ++i) {
+        float entry;
+        if (!crosses(geometry.primitives[i].bounds, SlabRay<float>(ray.narrow), nearest.t[0], &entry)) continue;
+        const Crossing<double> crossing =
+            first_crossing(geometry, geometry.primitives[i], ray, Asking<float>{.t_max = nearest.t[0]});
+        consider_one(geometry, i, 0, crossing, entry, infinity<float>, nearest);
+    }
     PackHit record{};
-    record.t = nearest.t;
-    if (!nearest.hit) return record;
-    const Crossing<double>& crossing = nearest.crossing;
+    record.t = nearest.t[0];
+    if (nearest.hit == 0) return record;
+    const Crossing<double> crossing{nearest.crossing_t[0],  nearest.leaf[0], nearest.face[0],
+                                    nearest.face_offset[0], true,            nearest.entering != 0};
     record.hit = true;
     record.face = crossing.face;
-    record.primitive = nearest.primitive, record.leaf = crossing.leaf;
+    record.primitive = nearest.primitive[0], record.leaf = crossing.leaf;
     record.crossing_t = crossing.t;
-    const auto at = surface_point<float>(scene.geometry(), crossing, ray.wide, everything);
+    const auto at = surface_point<float>(geometry, crossing, ray.wide, everything);
     fill(record, at);
-    const Material& material = material_of(scene, nearest.primitive);
+    const Material& material = material_of(scene, nearest.primitive[0]);
     if (material.texture) store(record.diffuse, material.texture->lookup(at.uv));
     return record;
 }
