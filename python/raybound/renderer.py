@@ -74,7 +74,8 @@ class Renderer:
     memory : int
         Bytes for what is kept for later frames, a hard limit, > 0. Too little of it is slower, never wrong.
     threads : int
-        0 uses all cores. The picture's bytes do not depend on it.
+        0 uses the processors that the process may use: those it is bound to (its CPU affinity), or fewer if its control
+        group grants less time. The picture's bytes do not depend on it.
     max_depth : int
         1..1000. The eye ray has depth 1; a surface at this depth spawns nothing.
     editable : bool

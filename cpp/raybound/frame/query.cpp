@@ -76,7 +76,7 @@ void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossin
           record.next_origin);
 }
 
-// Calls answer(i) for every i in [0, count), in chunks, on some threads (0: all cores).
+// Calls answer(i) for every i in [0, count), in chunks, on some threads (0: as many as may be used).
 template <class Answer>
 void answer_all(std::size_t count, const Watch& watch, const Answer& answer, int threads = 0) {
     constexpr std::size_t chunk = 512;

@@ -1,4 +1,4 @@
-// Questions about rays, many at once and on all cores: what they hit, whether segments are blocked, how one shape
+// Questions about rays, many at once and on many threads: what they hit, whether segments are blocked, how one shape
 // answers. `watch` is called while they are computed and may throw to cancel them.
 #pragma once
 
@@ -26,8 +26,8 @@ std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec
 std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f> origins,
                                    std::span<const Vec3f> targets, const Watch& watch);
 
-// The searches alone, without points, bounds and shading, on some threads (0: all cores), and the seconds they took: to
-// measure them. t, in units of each direction's length, is the one that searches compare.
+// The searches alone, without points, bounds and shading, on some threads (0: as many as may be used), and the seconds
+// they took: to measure them. t, in units of each direction's length, is the one that searches compare.
 struct ClosestHits {
     std::vector<float> t;
     std::vector<std::int32_t> object_id, face_id;

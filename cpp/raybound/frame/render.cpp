@@ -88,7 +88,7 @@ template <class T>
 std::vector<Tracer<T>> make_tracers(const Snapshot& scene, const RenderSettings& settings,
                                     const std::atomic<bool>& cancelled) {
     const TraceSettings trace{settings.max_depth, settings.acceleration, &cancelled};
-    return std::vector<Tracer<T>>(std::size_t(settings.threads > 0 ? settings.threads : hardware_threads()),
+    return std::vector<Tracer<T>>(std::size_t(thread_count(settings.threads)),
                                   Tracer<T>(scene, trace));
 }
 
@@ -108,7 +108,7 @@ RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameB
     const Stopwatch watch_time;
     RenderStatistics statistics;
     statistics.threads = run_work(
-        tiling.count(), settings.threads, cancelled,
+        tiling.count(), int(tracers.size()), cancelled,
         [&](int item, int worker) {
             Tracer<T>& tracer = tracers[std::size_t(worker)];
             const Tile tile = tiling.tile(item);
@@ -154,7 +154,7 @@ TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, 
             result.t[at] = sample.t;
         }
     };
-    result.statistics.threads = run_work((count + chunk - 1) / chunk, settings.threads, cancelled, work, watch);
+    result.statistics.threads = run_work((count + chunk - 1) / chunk, int(tracers.size()), cancelled, work, watch);
     result.statistics.rays = total(tracers);
     return result;
 }
