@@ -226,6 +226,11 @@ class Scene:
         Returns a structured array (n,): hit (bool), t, t_error (float32, in lengths of the direction), point,
         point_error, normal (3 float32; the outward unit normal), uv (2 float32), object_id, face_id (int32). A miss has
         t = inf, ids -1, and 0 elsewhere. Sees the scene as a renderer does.
+
+        `t_error` bounds how far `t` is from where the ray exactly meets the surface. `point_error` bounds how far
+        `point` is from the surface: the box point +- point_error holds a point of it. That need not be the very point
+        where the ray meets it, which may be as far off as t_error, times the direction, reaches: far for a ray that
+        comes from far away or grazes.
         """
         rays = _validate.rays("Scene.intersect", origins, directions)
         return self._document.snapshot().intersect(*rays)

@@ -10,7 +10,7 @@
 
 namespace raybound {
 
-// One answer. A miss has t infinite, ids -1 and zeros.
+// One answer. A miss has t infinite, ids -1 and zeros. What the errors bound is said at SurfacePoint.
 struct HitRecord {
     bool hit;
     float t, t_error;
