@@ -87,7 +87,7 @@ def intersect(
     ----------
     shape : Shape
     origins, directions : (n, 3) array_like
-        Scene units, rounded to float32; directions of any length but zero.
+        Scene units, rounded to float32; directions of length 2**-64 or more.
     precision : {"float32", "float64"}
         In which the intersection is computed.
     offsets : {"bounded", "epsilon", "scaled-epsilon"}

@@ -255,7 +255,7 @@ class Renderer:
     # Rays
 
     def trace(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> TraceResult:
-        """Traces any rays: `origins` and `directions` (n, 3), scene units, directions of any length but zero."""
+        """Traces any rays: `origins` and `directions` (n, 3), scene units, directions of length 2**-64 or more."""
         rays = _validate.rays("Renderer.trace", origins, directions)
         with self._busy("trace"):
             snapshot = self._scene._document.snapshot()

@@ -221,7 +221,7 @@ class Scene:
     # Queries
 
     def intersect(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.void]:
-        """The closest hits of rays, origins and directions (n, 3) in scene units, directions of any length but zero.
+        """The closest hits of rays, origins and directions (n, 3) in scene units, directions of length 2**-64 or more.
 
         Returns a structured array (n,): hit (bool), t, t_error (float32, in lengths of the direction), point,
         point_error, normal (3 float32; the outward unit normal), uv (2 float32), object_id, face_id (int32). A miss has
@@ -230,7 +230,8 @@ class Scene:
         `t_error` bounds how far `t` is from where the ray exactly meets the surface. `point_error` bounds how far
         `point` is from the surface: the box point +- point_error holds a point of it. That need not be the very point
         where the ray meets it, which may be as far off as t_error, times the direction, reaches: far for a ray that
-        comes from far away or grazes.
+        comes from far away or grazes. Where t is beyond float32, which only origins beyond 2**60 can make it, it is the
+        largest float and t_error is infinite.
         """
         rays = _validate.rays("Scene.intersect", origins, directions)
         return self._document.snapshot().intersect(*rays)

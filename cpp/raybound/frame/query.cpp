@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 
 #include "raybound/frame/stopwatch.h"
+#include "raybound/frame/user_rays.h"
 
 namespace raybound {
 
@@ -15,11 +15,20 @@ void store(const Vec3<T>& v, S (&out)[3]) {
     for (int i = 0; i < 3; ++i) out[i] = S(v[i]);
 }
 
+// A ray whose direction has passed require_directions.
 template <class T>
-Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale, std::size_t index) {
-    if (!scale_direction(direction, scale))
-        throw std::invalid_argument("directions must not be zero, direction " + std::to_string(index) + " is");
+Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale) {
+    scale_direction(direction, scale);
     return make_ray(origin, direction);
+}
+
+// t in units of the direction as it was given. Where that is beyond float (origins beyond 2^60), t is the largest float
+// and nothing bounds its error.
+void store_t(HitRecord& record, const SurfacePoint<float>& at, float scale) {
+    record.t = minimum(at.t / scale, std::numeric_limits<float>::max());
+    record.t_error = at.t / scale > record.t ? infinity<float>
+                     : scale == 1            ? at.t_error
+                                             : next_float_up(at.t_error / scale);
 }
 
 // Records whose bytes are all defined, padding too: equal answers are equal byte for byte.
@@ -42,11 +51,9 @@ std::int32_t face_id(const Crossing<T>& crossing) {
 
 void fill_record(HitRecord& record, const Snapshot& scene, const Nearest<float>& nearest, const WideRay<float>& ray,
                  float scale) {
-    constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
     const SurfacePoint<float> at = surface_point<float>(scene.geometry(), nearest.crossing, ray.wide, {true, true});
     record.hit = true;
-    record.t = minimum(at.t / scale, most);
-    record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
+    store_t(record, at, scale);
     store(at.point, record.point);
     store(at.point_error, record.point_error);
     store(at.shading, record.normal);
@@ -92,12 +99,13 @@ void answer_all(std::size_t count, const Watch& watch, const Answer& answer, int
 
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
                                       std::span<const Vec3f> directions, const Watch& watch) {
+    require_directions<float>("Scene.intersect", directions);
     auto records = blank_records<HitRecord>(origins.size());
     answer_all(origins.size(), watch, [&](std::size_t i) {
         records[i].t = infinity<float>;
         records[i].object_id = records[i].face_id = -1;
         float scale;
-        const WideRay<float> ray(user_ray(origins[i], directions[i], scale, i));
+        const WideRay<float> ray(user_ray(origins[i], directions[i], scale));
         const Nearest<float> nearest = closest_hit(scene, ray);
         if (nearest.hit) fill_record(records[i], scene, nearest, ray, scale);
     });
@@ -116,13 +124,14 @@ std::vector<std::uint8_t> occluded(const Snapshot& scene, std::span<const Vec3f>
 
 ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions,
                          int threads, const Watch& watch) {
+    require_directions<float>("closest_hits", directions);
     const std::size_t count = origins.size();
     ClosestHits hits{std::vector<float>(count, infinity<float>), std::vector<std::int32_t>(count, -1),
                      std::vector<std::int32_t>(count, -1), 0};
     const auto search = [&](std::size_t i) {
         float scale;
         const Nearest<float> nearest =
-            closest_hit(scene, WideRay<float>(user_ray(origins[i], directions[i], scale, i)));
+            closest_hit(scene, WideRay<float>(user_ray(origins[i], directions[i], scale)));
         if (!nearest.hit) return;
         hits.t[i] = nearest.t / scale;
         hits.object_id[i] = object_id(scene, nearest);
@@ -152,6 +161,7 @@ template <class T>
 std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
                                             std::span<const Vec3d> directions, Offsets offsets, bool inward,
                                             const Watch& watch) {
+    require_directions<T>("intersect", directions);
     Geometry geometry;
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
@@ -160,7 +170,7 @@ std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const 
         records[i].t = infinity<double>;
         records[i].face_id = -1;
         T scale, entry;
-        const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale, i);
+        const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale);
         if (!crosses(primitive.bounds, SlabRay<T>(ray), infinity<T>, &entry)) return;
         const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, WideRay<T>(ray));
         if (crossing.hit && T(crossing.t) < infinity<T>)

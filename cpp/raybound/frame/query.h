@@ -18,7 +18,8 @@ struct HitRecord {
     std::int32_t object_id, face_id;
 };
 
-// t is in units of each direction's length. Throws std::invalid_argument for a zero direction.
+// t is in units of each direction's length. Throws std::invalid_argument for a direction that is too short
+// (user_rays.h).
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, std::span<const Vec3f> origins,
                                       std::span<const Vec3f> directions, const Watch& watch);
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
-#include <string>
 
 #include "raybound/frame/stopwatch.h"
 #include "raybound/frame/tiling.h"
+#include "raybound/frame/user_rays.h"
 
 namespace raybound {
 
@@ -133,10 +132,8 @@ RenderStatistics render(const Snapshot& scene, const Camera& camera, FrameBuffer
 
 TracedRays trace_rays(const Snapshot& scene, const std::vector<Vec3f>& origins, std::vector<Vec3f> directions,
                       const RenderSettings& settings, const Watch& watch) {
-    for (std::size_t i = 0; i < directions.size(); ++i)
-        if (!unit_direction(directions[i]))
-            throw std::invalid_argument("Renderer.trace: directions must not be zero, direction " + std::to_string(i) +
-                                        " is");
+    require_directions<float>("Renderer.trace", std::span<const Vec3f>(directions));
+    for (Vec3f& direction : directions) make_unit(direction);
     constexpr int chunk = 256;
     const int count = int(origins.size());
     TracedRays result{std::vector<Vec3f>(origins.size()),
