@@ -4,11 +4,9 @@
 #include <atomic>
 #include <functional>
 
-namespace raybound {
+#include "raybound/geometry/watch.h"
 
-// How the thread that waits looks after the work: called every few milliseconds with the fraction done; may throw,
-// which cancels the work and is passed on.
-using Watch = std::function<void(double)>;
+namespace raybound {
 
 // The number of threads that is meant; 0 stands for usable_processors(), which another call may find changed.
 int thread_count(int threads);

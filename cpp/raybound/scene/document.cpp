@@ -164,8 +164,22 @@ std::optional<Boxd> Document::bounds() const {
     return box;
 }
 
-SnapshotPointer Document::snapshot() const {
-    const std::scoped_lock building(snapshot_mutex_);  // one thread builds, others wait for it
+Document::Building::Building(const Document& document, const Watch& watch) : document_(document) {
+    if (document.builder_ == std::this_thread::get_id())
+        throw std::logic_error("Scene: it cannot be rendered or asked while it is being prepared for that");
+    while (!document.snapshot_mutex_.try_lock_for(std::chrono::milliseconds(20)))
+        if (watch) watch(0);
+    document.builder_ = std::this_thread::get_id();
+}
+
+Document::Building::~Building() {
+    document_.builder_ = std::thread::id();
+    document_.snapshot_mutex_.unlock();
+}
+
+SnapshotPointer Document::snapshot(const Watch& watch) const {
+    const Building building(*this, watch);
+    Lookout lookout(watch);
     State state;
     {
         const std::scoped_lock lock(mutex_);
@@ -176,11 +190,11 @@ SnapshotPointer Document::snapshot() const {
     // The earlier snapshot is copied, or taken apart if nobody else holds it.
     const std::shared_ptr<Snapshot> earlier = std::exchange(snapshot_, nullptr);
     if (!earlier)
-        snapshot_ = std::make_shared<Snapshot>(state.content, state.revision);
+        snapshot_ = std::make_shared<Snapshot>(state.content, state.revision, lookout);
     else if (is_sole_owner(earlier))
-        snapshot_ = std::make_shared<Snapshot>(std::move(*earlier), state.content, state.revision);
+        snapshot_ = std::make_shared<Snapshot>(std::move(*earlier), state.content, state.revision, lookout);
     else
-        snapshot_ = std::make_shared<Snapshot>(*earlier, state.content, state.revision);
+        snapshot_ = std::make_shared<Snapshot>(*earlier, state.content, state.revision, lookout);
     return snapshot_;
 }
 

@@ -12,18 +12,22 @@ namespace {
 
 Vec3d area_vector(const Corners<double>& c) { return cross(c.b - c.a, c.c - c.a); }
 
-void check_indices(std::span<const Face> faces, std::size_t vertex_count) {
-    for (std::size_t i = 0; i < faces.size(); ++i)
+void check_indices(std::span<const Face> faces, std::size_t vertex_count, Lookout& lookout) {
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        lookout.step();
         for (const std::int32_t index : {faces[i].a, faces[i].b, faces[i].c})
             if (index < 0 || std::size_t(index) >= vertex_count)
                 refuse("faces must index the " + std::to_string(vertex_count) + " vertices, face " + std::to_string(i) +
                        " has index " + std::to_string(index));
+    }
 }
 
-void check_normals(std::span<const Vec3f> normals) {
-    for (std::size_t i = 0; i < normals.size(); ++i)
+void check_normals(std::span<const Vec3f> normals, Lookout& lookout) {
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        lookout.step();
         if (!(length(Vec3d(normals[i])) >= double(least_size)))
             refuse("normals must not be zero, normal " + std::to_string(i) + " is " + format(normals[i]));
+    }
 }
 
 struct Edge {
@@ -33,24 +37,30 @@ struct Edge {
 };
 
 // An edge belongs to one face, at a border, or to two.
-void check_edges(std::span<const Face> faces) {
+void check_edges(std::span<const Face> faces, Lookout& lookout) {
     std::vector<Edge> edges;
     edges.reserve(faces.size() * 3);
     const auto add = [&](std::int32_t a, std::int32_t b, std::size_t face) {
         edges.push_back({std::uint64_t(std::min(a, b)) << 32 | std::uint32_t(std::max(a, b)), std::uint32_t(face)});
     };
     for (std::size_t i = 0; i < faces.size(); ++i) {
+        lookout.step();
         add(faces[i].a, faces[i].b, i);
         add(faces[i].b, faces[i].c, i);
         add(faces[i].c, faces[i].a, i);
     }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 2; i < edges.size(); ++i)
+    std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) {
+        lookout.step();
+        return a < b;
+    });
+    for (std::size_t i = 2; i < edges.size(); ++i) {
+        lookout.step();
         if (edges[i].ends == edges[i - 2].ends)
             refuse("faces must be manifold, faces " + std::to_string(edges[i - 2].face) + ", " +
                    std::to_string(edges[i - 1].face) + " and " + std::to_string(edges[i].face) +
                    " share the edge of vertices " + std::to_string(edges[i].ends >> 32) + " and " +
                    std::to_string(edges[i].ends & 0xffffffffu));
+    }
 }
 
 Box box_of(const Corners<float>& corners) {
@@ -63,7 +73,7 @@ Box box_of(const Corners<float>& corners) {
 
 }  // namespace
 
-void MeshData::check() const {
+void MeshData::check(Lookout& lookout) const {
     if (vertices_.empty()) refuse("vertices must not be empty");
     if (faces_.empty()) refuse("faces must not be empty");
     if (faces_.size() >= std::size_t(Bvh::leaf_bit)) refuse("faces must be fewer than 2**31");
@@ -72,19 +82,22 @@ void MeshData::check() const {
     for (const UV<float>& uv : uvs_) require_finite("Mesh", "uvs", Vec3f{uv.u, uv.v, 0});
     if (!normals_.empty() && normals_.size() != vertices_.size()) refuse("normals must be as many as vertices");
     if (!uvs_.empty() && uvs_.size() != vertices_.size()) refuse("uvs must be as many as vertices");
-    check_indices(faces_, vertices_.size());
-    check_normals(normals_);
-    for (std::size_t i = 0; i < faces_.size(); ++i)
+    check_indices(faces_, vertices_.size(), lookout);
+    check_normals(normals_, lookout);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        lookout.step();
         if (area_vector(corners<double>(std::int32_t(i))) == Vec3d{})
             refuse("faces must not be degenerate, the corners of face " + std::to_string(i) + " are on one line");
-    check_edges(faces_);
+    }
+    check_edges(faces_, lookout);
 }
 
 // One pack for each leaf. Boxes of triangles are exact.
-void MeshData::build() {
+void MeshData::build(Lookout& lookout) {
     std::vector<Box> boxes;
     boxes.reserve(faces_.size());
     for (std::size_t i = 0; i < faces_.size(); ++i) {
+        lookout.step();
         boxes.push_back(box_of(corners<float>(std::int32_t(i))));
         bounds_.extend(boxes.back());
     }
@@ -102,19 +115,20 @@ void MeshData::build() {
         packs_.push_back(pack);
         return std::uint32_t(packs_.size() - 1);
     };
-    bvh_ = Bvh(boxes, {[](std::uint32_t) { return 0; }, [](int) { return pack_width; }, make_leaf});
+    bvh_ = Bvh(boxes, {[](std::uint32_t) { return 0; }, [](int) { return pack_width; }, make_leaf}, lookout);
     packs_.shrink_to_fit();
 }
 
 MeshPointer MeshData::make(std::vector<Vec3f> vertices, std::vector<Face> faces, std::vector<Vec3f> normals,
-                           std::vector<UV<float>> uvs) {
+                           std::vector<UV<float>> uvs, const Watch& watch) {
     const std::shared_ptr<MeshData> mesh(new MeshData);
     mesh->vertices_ = std::move(vertices);
     mesh->faces_ = std::move(faces);
     mesh->normals_ = std::move(normals);
     mesh->uvs_ = std::move(uvs);
-    mesh->check();
-    mesh->build();
+    Lookout lookout(watch);
+    mesh->check(lookout);
+    mesh->build(lookout);
     if (!(max_component(mesh->bounds_.extent()) >= least_size)) refuse("vertices must extend over at least 2**-60");
     return mesh;
 }
