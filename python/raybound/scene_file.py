@@ -5,7 +5,7 @@
      "ambient": [r, g, b],
      "background": [r, g, b],
      "camera": {"eye": [x, y, z], ...} or null,
-     "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat"},
+     "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat" or [u, v] or null},
                   {"texels": {"shape": [h, w, 3], "base64": "..."}}],
      "meshes": [{"vertices": {"shape": [n, 3], "base64": "..."}, "faces": {"shape": [m, 3], "base64": "..."},
                  "normals": null, "uvs": null}],
@@ -98,7 +98,7 @@ class _Writer:
         return self.indices[value]
 
     def texture(self, value: Texture) -> dict[str, Any]:
-        source: dict[str, Any] = {"scale": _plain(value.scale), "wrap": value.wrap}
+        source: dict[str, Any] = {"scale": _plain(value.scale), "wrap": _plain(value.wrap)}
         if value._location is not None:
             return {"path": self.path(value._location), **source}
         return {"texels": _encoded(value.texels), **source}

@@ -144,8 +144,10 @@ void ExactTracer::meet_face(const RayBatch& rays, Level& level, Face& face) {
         uv[std::size_t(k)] = meet_pack(rays, level, face, order.pack(k), order.lanes(k));
     const Material& material = *face.material;
     for (int k = 0; k < order.packs(); ++k)
-        scatter(material.texture ? material.texture->lookup(uv[std::size_t(k)]) : Vec3<FloatPack>(material.diffuse),
-                order.pack(k), order.lanes(k), level.diffuse);
+    const bool around = goes_around(scene_.geometry().leaves[face.leaf], face.face);
+        scatter(
+            material.texture ? material.texture->lookup(uv[std::size_t(k)], around) : Vec3<FloatPack>(material.diffuse),
+            order.pack(k), order.lanes(k), level.diffuse);
 }
 
 // Where the rays meet the face; returns its (u,v) there.
@@ -174,7 +176,8 @@ UV<FloatPack> ExactTracer::meet_pack(const RayBatch& rays, Level& level, const F
     scatter(offset_origin(hit.point, hit.point_error, side), index, count, level.outside.origin);
     if (material.transmit != Vec3f{}) scatter(hit.point_error, index, count, level.point_error);
     for (int lane = 0; lane < count; ++lane) level.outside.departed[index[lane]] = face.outer;
-    if (material.texture) material.texture->prefetch(hit.uv);
+    if (material.texture)
+        material.texture->prefetch(hit.uv, goes_around(scene_.geometry().leaves[face.leaf], face.face));
     return hit.uv;
 }
 

@@ -54,6 +54,13 @@ inline bool is_flat_face(const Leaf& leaf, int face) {
     return face != 0 || leaf.kind == LeafKind::box || is_sheet(leaf);
 }
 
+// Does a face's chart go around: u once around an axis, back to where it began, and v from one end to the other?
+inline bool goes_around(const Leaf& leaf, int face) {
+    if (face != 0) return false;
+    return leaf.kind == LeafKind::sphere || leaf.kind == LeafKind::cylinder || leaf.kind == LeafKind::cone ||
+           leaf.kind == LeafKind::quadric;
+}
+
 enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection };
 
 // A node of a CSG expression: a leaf (index `first`) or `count` nodes that start at `first` in csg_children.
