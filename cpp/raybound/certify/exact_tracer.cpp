@@ -47,6 +47,7 @@ void ExactTracer::begin_tile() {
 }
 
 void ExactTracer::trace_eye(const RayBatch& rays, const ImageBlocks::Kept& kept, BatchRadiance& out) {
+    eye_mode_.packs = true;  // what is hard for one block is not for its whole tile
     changes_ = kept.changes;
     written_.clear();
     writes_ = cells_.blocks().is_open();
@@ -143,8 +144,8 @@ void ExactTracer::meet_face(const RayBatch& rays, Level& level, Face& face) {
     for (int k = 0; k < order.packs(); ++k)
         uv[std::size_t(k)] = meet_pack(rays, level, face, order.pack(k), order.lanes(k));
     const Material& material = *face.material;
-    for (int k = 0; k < order.packs(); ++k)
     const bool around = goes_around(scene_.geometry().leaves[face.leaf], face.face);
+    for (int k = 0; k < order.packs(); ++k)
         scatter(
             material.texture ? material.texture->lookup(uv[std::size_t(k)], around) : Vec3<FloatPack>(material.diffuse),
             order.pack(k), order.lanes(k), level.diffuse);
