@@ -9,22 +9,22 @@ struct LeafFace {
     std::uint32_t leaf;
     std::int32_t face_offset;
 };
-LeafFace leaf_of_face(const Geometry& geometry, std::uint32_t node_index, std::int32_t face) {
-    const CsgNode& node = geometry.csg_nodes[node_index];
-    if (node.kind == CsgKind::leaf) return {node.first, node.face_offset};
-    // Faces count one after the other: the last child that begins at the face or before.
-    const auto first_face = [&](std::uint32_t index) {
-        while (geometry.csg_nodes[index].kind != CsgKind::leaf)
-            index = geometry.csg_children[geometry.csg_nodes[index].first];
-        return geometry.csg_nodes[index].face_offset;
+// Faces count one after the other: they are those of the last child that begins at the face or before.
+LeafFace leaf_of_face(const Geometry& geometry, std::uint32_t index, std::int32_t face) {
+    const auto first_face = [&](std::uint32_t at) {
+        while (geometry.csg_nodes[at].kind != CsgKind::leaf) at = geometry.csg_children[geometry.csg_nodes[at].first];
+        return geometry.csg_nodes[at].face_offset;
     };
-    std::uint32_t child = geometry.csg_children[node.first];
-    for (std::uint32_t i = 1; i < node.count; ++i) {
-        const std::uint32_t next = geometry.csg_children[node.first + i];
-        if (first_face(next) > face) break;
-        child = next;
+    for (;;) {
+        const CsgNode& node = geometry.csg_nodes[index];
+        if (node.kind == CsgKind::leaf) return {node.first, node.face_offset};
+        index = geometry.csg_children[node.first];
+        for (std::uint32_t i = 1; i < node.count; ++i) {
+            const std::uint32_t next = geometry.csg_children[node.first + i];
+            if (first_face(next) > face) break;
+            index = next;
+        }
     }
-    return leaf_of_face(geometry, child, face);
 }
 
 }  // namespace

@@ -130,8 +130,7 @@ ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, 
                      std::vector<std::int32_t>(count, -1), 0};
     const auto search = [&](std::size_t i) {
         float scale;
-        const Nearest<float> nearest =
-            closest_hit(scene, WideRay<float>(user_ray(origins[i], directions[i], scale)));
+        const Nearest<float> nearest = closest_hit(scene, WideRay<float>(user_ray(origins[i], directions[i], scale)));
         if (!nearest.hit) return;
         hits.t[i] = nearest.t / scale;
         hits.object_id[i] = object_id(scene, nearest);

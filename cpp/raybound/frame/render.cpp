@@ -87,8 +87,7 @@ template <class T>
 std::vector<Tracer<T>> make_tracers(const Snapshot& scene, const RenderSettings& settings,
                                     const std::atomic<bool>& cancelled) {
     const TraceSettings trace{settings.max_depth, settings.acceleration, &cancelled};
-    return std::vector<Tracer<T>>(std::size_t(thread_count(settings.threads)),
-                                  Tracer<T>(scene, trace));
+    return std::vector<Tracer<T>>(std::size_t(thread_count(settings.threads)), Tracer<T>(scene, trace));
 }
 
 template <class T>

@@ -56,8 +56,8 @@ inline Ray<T> make_segment(const Vec3<T>& origin, const Vec3<T>& target) {
     return make_segment(origin, target, power_of_two_below(maximum(reach, T(0x1p-100))));
 }
 
-// A direction as users give it, whose length is not subnormal, scaled by a power of two so that its largest component is
-// in [1, 2): nothing but components too small to matter is rounded, and a t along it is `scale` times a t along the
+// A direction as users give it, whose length is not subnormal, scaled by a power of two so that its largest component
+// is in [1, 2): nothing but components too small to matter is rounded, and a t along it is `scale` times a t along the
 // original.
 template <std::floating_point T>
 inline void scale_direction(Vec3<T>& d, T& scale) {

@@ -1,9 +1,10 @@
 #include "raybound/scene/document.h"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <utility>
+
+#include "raybound/geometry/sole_owner.h"
 
 namespace raybound {
 
@@ -23,14 +24,6 @@ ObjectRecord checked_object(std::int32_t id, ShapePointer shape, MaterialPointer
                                     format(reach));
     return {id, std::move(shape), std::move(material),
             placed.is_identity() ? nullptr : std::make_shared<const Affine>(placed)};
-}
-
-// What others have read before they let go must not be overtaken by what is written now.
-template <class T>
-bool is_sole_owner(const std::shared_ptr<T>& pointer) {
-    const bool sole = pointer.use_count() == 1;
-    std::atomic_thread_fence(std::memory_order_acquire);
-    return sole;
 }
 
 template <class Records>
@@ -179,7 +172,6 @@ Document::Building::~Building() {
 
 SnapshotPointer Document::snapshot(const Watch& watch) const {
     const Building building(*this, watch);
-    Lookout lookout(watch);
     State state;
     {
         const std::scoped_lock lock(mutex_);
@@ -187,6 +179,7 @@ SnapshotPointer Document::snapshot(const Watch& watch) const {
         if (snapshot_ && snapshot_->revision() == current.revision) return snapshot_;
         state = current;
     }
+    Lookout lookout(watch);
     // The earlier snapshot is copied, or taken apart if nobody else holds it.
     const std::shared_ptr<Snapshot> earlier = std::exchange(snapshot_, nullptr);
     if (!earlier)

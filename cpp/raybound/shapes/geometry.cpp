@@ -185,33 +185,55 @@ std::uint32_t add_leaf(Geometry& geometry, const Shape& shape, const Affine& pla
     return std::uint32_t(geometry.leaves.size() - 1);
 }
 
-std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement, std::int32_t& face) {
-    if (shape.kind() == ShapeKind::transformed)
-        return add_csg(geometry, *shape.parts()[0], placement * shape.transform(), face);
-    CsgNode node;
-    if (shape.parts().empty()) {
-        node.face_offset = face;
-        node.first = add_leaf(geometry, shape, placement);
-        face += shape.face_count();
-    } else {
-        node.kind = shape.kind() == ShapeKind::csg_union ? CsgKind::csg_union : CsgKind::csg_intersection;
-        std::vector<std::uint32_t> children;
-        for (const auto& part : shape.parts()) children.push_back(add_csg(geometry, *part, placement, face));
-        node.first = std::uint32_t(geometry.csg_children.size());
-        node.count = std::uint32_t(children.size());
-        geometry.csg_children.insert(geometry.csg_children.end(), children.begin(), children.end());
-    }
-    geometry.csg_nodes.push_back(node);
-    return std::uint32_t(geometry.csg_nodes.size() - 1);
+// A CSG operation whose parts are being added: their nodes follow those of the operations it is part of.
+struct Open {
+    const Shape* shape;
+    Affine placement;
+    std::size_t next = 0, first_child = 0;
+};
+
+// How deep a walk that recurses has to go, as far as a byte can tell.
+std::uint8_t height_above(const Geometry& geometry, std::span<const std::uint32_t> children) {
+    std::uint8_t height = 0;
+    for (const std::uint32_t child : children) height = std::max(height, geometry.csg_nodes[child].height);
+    return height == CsgNode::most_height ? height : std::uint8_t(height + 1);
 }
 
-const Shape& strip_transforms(const Shape& shape, Affine& placement) {
-    const Shape* inner = &shape;
-    while (inner->kind() == ShapeKind::transformed) {
-        placement = placement * inner->transform();
-        inner = inner->parts()[0].get();
+// Adds the nodes of an expression, each after its children; returns the last one, its root.
+std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement) {
+    std::vector<Open> open;
+    std::vector<std::uint32_t> children;
+    std::int32_t face = 0;
+    const auto add_node = [&](const CsgNode& node) {
+        children.push_back(std::uint32_t(geometry.csg_nodes.size()));
+        geometry.csg_nodes.push_back(node);
+    };
+    const auto enter = [&](const Shape& part, Affine map) {
+        const Shape& inner = strip_transforms(part, map);
+        if (!inner.parts().empty()) {
+            open.push_back({&inner, map, 0, children.size()});
+            return;
+        }
+        add_node({CsgKind::leaf, 0, add_leaf(geometry, inner, map), 0, face});
+        face += inner.face_count();
+    };
+    enter(shape, placement);
+    while (!open.empty()) {
+        Open& at = open.back();
+        if (at.next < at.shape->parts().size()) {
+            enter(*at.shape->parts()[at.next++], at.placement);
+            continue;
+        }
+        const std::span<const std::uint32_t> own = std::span(children).subspan(at.first_child);
+        const CsgNode node{at.shape->kind() == ShapeKind::csg_union ? CsgKind::csg_union : CsgKind::csg_intersection,
+                           height_above(geometry, own), std::uint32_t(geometry.csg_children.size()),
+                           std::uint32_t(own.size()), 0};
+        geometry.csg_children.insert(geometry.csg_children.end(), own.begin(), own.end());
+        children.resize(at.first_child);
+        open.pop_back();
+        add_node(node);
     }
-    return *inner;
+    return children[0];
 }
 
 // The box of what is really there, which differs from the description by the leaves' errors.
@@ -239,9 +261,7 @@ void replace_primitive(Geometry& geometry, std::uint32_t index, const Shape& sha
     const Shape& inner = strip_transforms(shape, map);
     Primitive& primitive = geometry.primitives[index];
     primitive.is_csg = !inner.parts().empty();
-    std::int32_t face = 0;
-    primitive.root =
-        (primitive.is_csg ? add_csg(geometry, inner, map, face) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
+    primitive.root = (primitive.is_csg ? add_csg(geometry, inner, map) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
     primitive.bounds = primitive_bounds(geometry, inner, map, first_leaf);
 }
 
