@@ -1,5 +1,7 @@
+#include <thread>
+
 #include "bindings/arrays.h"
-#include "raybound/frame/work_queue.h"
+#include "raybound/frame/processors.h"
 
 namespace raybound::python {
 
@@ -8,7 +10,8 @@ namespace {
 py::dict build_info() {
     return py::dict("version"_a = RAYBOUND_VERSION, "compiler"_a = __VERSION__, "flags"_a = RAYBOUND_FLAGS,
                     "instruction_level"_a = RAYBOUND_ARCH_NAME, "sabotage"_a = RAYBOUND_SABOTAGE_NAME,
-                    "sanitizer"_a = RAYBOUND_SANITIZE_NAME, "hardware_threads"_a = hardware_threads());
+                    "sanitizer"_a = RAYBOUND_SANITIZE_NAME, "hardware_threads"_a = std::thread::hardware_concurrency(),
+                    "usable_threads"_a = usable_processors());
 }
 
 }  // namespace
@@ -33,6 +36,10 @@ PYBIND11_MODULE(RAYBOUND_MODULE, m) {
     register_render(m);
     register_packs(m);
     m.def("build_info", &build_info, "How this module was built.");
+    m.def(
+        "granted_processors",
+        [](const std::string& memberships, const std::string& root) { return granted_by_groups(memberships, root); },
+        "memberships"_a, "root"_a, "What control groups grant, in processors: from the text of /proc/self/cgroup.");
 }
 
 }  // namespace raybound::python

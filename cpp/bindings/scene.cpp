@@ -105,8 +105,9 @@ void register_document(py::module_& m) {
              })
         .def("snapshot",
              [](const Document& d) {
+                 const py::object silent = py::none();
                  const py::gil_scoped_release released;
-                 return std::const_pointer_cast<Snapshot>(d.snapshot());
+                 return std::const_pointer_cast<Snapshot>(d.snapshot(watcher(silent)));
              })
         .def("copy", [](const Document& d) { return std::make_shared<Document>(d); });
 }

@@ -48,8 +48,10 @@ ShapePointer mesh(const Floats& vertices, const Indices& faces, const std::optio
     auto f = rows<Face>(faces, 3, "faces");
     auto n = normals ? rows<Vec3f>(*normals, 3, "normals") : std::vector<Vec3f>{};
     auto t = uvs ? rows<UV<float>>(*uvs, 2, "uvs") : std::vector<UV<float>>{};
+    const py::object silent = py::none();
     const py::gil_scoped_release released;
-    return Shape::triangle_mesh(MeshData::make(std::move(v), std::move(f), std::move(n), std::move(t)));
+    return Shape::triangle_mesh(
+        MeshData::make(std::move(v), std::move(f), std::move(n), std::move(t), watcher(silent)));
 }
 
 }  // namespace

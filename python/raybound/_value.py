@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, NoReturn, Self
 
 import numpy as np
@@ -56,7 +56,10 @@ class Value:
 
     def _key(self) -> object:
         """What equality and hash look at."""
-        return tuple(_hashable(getattr(self, name)) for name in self._fields)
+        return self._key_of(self._fields)
+
+    def _key_of(self, names: Iterable[str]) -> object:
+        return tuple(_hashable(getattr(self, name)) for name in names)
 
     def __eq__(self, other: object) -> bool:
         if self is other:
@@ -75,7 +78,7 @@ class Value:
         return f"{type(self).__name__}({inside})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _construct, (type(self), *self._arguments())
+        return construct, (type(self), *self._arguments())
 
     def __copy__(self) -> Self:
         return self
@@ -84,7 +87,7 @@ class Value:
         return self
 
 
-def _construct(cls: type[Value], positional: tuple[Any, ...], named: dict[str, Any]) -> Value:
+def construct(cls: type[Value], positional: tuple[Any, ...], named: dict[str, Any]) -> Value:
     """Makes a value again; what pickles call."""
     return cls(*positional, **named)
 

@@ -67,7 +67,7 @@ def _add_render(render: argparse.ArgumentParser) -> None:
     )
     render.add_argument("--width", type=int, help="pixels (default: the camera's)")
     render.add_argument("--height", type=int, help="pixels (default: the camera's)")
-    render.add_argument("--threads", type=int, default=0, help="0: all cores (default)")
+    render.add_argument("--threads", type=int, default=0, help="0: as many as may be used (default)")
     render.add_argument("--max-depth", type=int, default=5, help="depth of the ray tree (default 5)")
     render.add_argument("--method", choices=METHODS, default="auto", help="default auto")
     render.add_argument("--progress", action="store_true", help="show a progress bar")

@@ -87,7 +87,7 @@ def intersect(
     ----------
     shape : Shape
     origins, directions : (n, 3) array_like
-        Scene units, rounded to float32; directions of any length but zero.
+        Scene units, rounded to float32; directions of length 2**-64 or more.
     precision : {"float32", "float64"}
         In which the intersection is computed.
     offsets : {"bounded", "epsilon", "scaled-epsilon"}
@@ -95,7 +95,8 @@ def intersect(
         measured against.
 
     Returns a structured array (n,): hit, t, t_error, point, point_error, normal (outward), uv, face_id, next_origin
-    (the origin of a ray spawned along the normal).
+    (the origin of a ray spawned along the normal). t +- t_error holds where the ray exactly meets the surface; the box
+    point +- point_error holds a point of the surface, not always the one where the ray meets it.
     """
     checked = _validate.instance("intersect", "shape", shape, Shape, "a Shape")
     rays = _validate.ray_rows("intersect", origins, directions)

@@ -15,6 +15,7 @@ from ._validate import Colour, FloatArray, packed
 from ._value import Value, expression
 
 WRAPS = ("repeat", "clamp", "mirror")
+Wrap = str | tuple[str, str] | None
 
 
 class Texture(Value):
@@ -29,8 +30,10 @@ class Texture(Value):
         linear RGB.
     scale : (float, float)
         How often the picture repeats over u and v in [0, 1].
-    wrap : {"repeat", "clamp", "mirror"}
-        What lies outside [0, 1] after scaling.
+    wrap : {"repeat", "clamp", "mirror"}, a pair of these for (u, v), or None
+        What lies outside [0, 1] after scaling. None: what suits the chart of the face. Everywhere the texture repeats;
+        but where u goes once around an axis and v from one end to the other (spheres, the sides of cylinders and
+        cones, the curved face of quadrics) it ends with v: no pole takes colour from the other one.
 
     Attributes: `path` (as given, or None for an array), `texels` ((h, w, 3) float32, linear, read-only), `scale`,
     `wrap`. The file is read once, here. Two textures are equal if their texels, scale and wrap are; `path` does not
@@ -45,7 +48,7 @@ class Texture(Value):
     path: str | None
     texels: FloatArray
     scale: tuple[float, float]
-    wrap: str
+    wrap: Wrap
     _location: str | None  # absolute: scene files need it after a change of folder
     _digest: bytes
     _native: _core.Texture
@@ -55,7 +58,7 @@ class Texture(Value):
         source: str | os.PathLike[str] | npt.ArrayLike,
         scale: tuple[float, float] = (1.0, 1.0),
         *,
-        wrap: str = "repeat",
+        wrap: Wrap = None,
     ) -> None:
         path = None
         if isinstance(source, (str, os.PathLike)):
@@ -69,11 +72,11 @@ class Texture(Value):
 
     def _adopt(self, path: str | None, location: str | None, texels: FloatArray, scale: object, wrap: object) -> None:
         u, v = _validate.array("Texture", "scale", scale, shape=(2,)).tolist()
-        self._set(path=path, _location=location, scale=(u, v), wrap=_validate.choice("Texture", "wrap", wrap, WRAPS))
+        self._set(path=path, _location=location, scale=(u, v), wrap=_wrap(wrap))
         upwards = _validate.array("Texture", "source", _check_texels(texels)[::-1], shape=(None, None, 3))
         upwards.flags.writeable = False
         digest = hashlib.sha256(repr(upwards.shape).encode() + (upwards + np.float32(0)).tobytes()).digest()
-        self._set(texels=upwards[::-1], _digest=digest, _native=_core.texture(upwards, u, v, self.wrap))
+        self._set(texels=upwards[::-1], _digest=digest, _native=_core.texture(upwards, u, v, *_by_axis(self.wrap)))
 
     @property
     def source(self) -> str | FloatArray:
@@ -100,7 +103,26 @@ class Texture(Value):
         height, width, _ = self.texels.shape
         source = f"<array of {height} x {width} texels>" if self.path is None else repr(self.path)
         shown = "" if self.scale == (1.0, 1.0) else f", scale={expression(self.scale)}"
-        return f"Texture({source}{shown}{'' if self.wrap == 'repeat' else f', wrap={self.wrap!r}'})"
+        return f"Texture({source}{shown}{'' if self.wrap is None else f', wrap={self.wrap!r}'})"
+
+
+def _wrap(value: object) -> Wrap:
+    """A word, a pair of words for (u, v) (which is one word if both are the same), or None."""
+    if value is None:
+        return None
+    if isinstance(value, (tuple, list)):
+        if len(value) != 2:
+            raise ValueError(f"Texture: wrap must be a word or a pair of words (u, v), got {_validate.describe(value)}")
+        u, v = (_validate.choice("Texture", f"wrap[{i}]", word, WRAPS) for i, word in enumerate(value))
+        return u if u == v else (u, v)
+    return _validate.choice("Texture", "wrap", value, WRAPS)
+
+
+def _by_axis(wrap: Wrap) -> tuple[str, str]:
+    """The core's words for u and v."""
+    if wrap is None:
+        return "chart", "chart"
+    return (wrap, wrap) if isinstance(wrap, str) else wrap
 
 
 def _check_texels(texels: npt.NDArray[Any]) -> npt.NDArray[Any]:

@@ -11,6 +11,8 @@ from . import _core, _validate
 from ._validate import FloatArray, IndexArray
 from .shapes import Shape
 
+ROWS = 2**18  # that are digested in one go
+
 
 class Mesh(Shape):
     """A mesh of triangles, flat or with interpolated normals.
@@ -80,5 +82,7 @@ def _digest(*arrays: FloatArray | IndexArray | None) -> bytes:
         digest.update(repr(None if array is None else array.shape).encode())
         if array is not None:
             array.flags.writeable = False
-            digest.update(np.add(array, 0, dtype=array.dtype).tobytes())  # -0.0 equals 0.0
+            for first in range(0, len(array), ROWS):  # a signal can stop it in between
+                rows = array[first : first + ROWS]
+                digest.update(np.add(rows, 0, dtype=array.dtype).tobytes())  # -0.0 equals 0.0
     return digest.digest()

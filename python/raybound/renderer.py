@@ -74,7 +74,8 @@ class Renderer:
     memory : int
         Bytes for what is kept for later frames, a hard limit, > 0. Too little of it is slower, never wrong.
     threads : int
-        0 uses all cores. The picture's bytes do not depend on it.
+        0 uses the processors that the process may use: those it is bound to (its CPU affinity), or fewer if its control
+        group grants less time. The picture's bytes do not depend on it.
     max_depth : int
         1..1000. The eye ray has depth 1; a surface at this depth spawns nothing.
     editable : bool
@@ -256,8 +257,8 @@ class Renderer:
     def trace(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> TraceResult:
         """Traces any rays.
 
-        `origins` (..., 3), or (...) records of hits (see `Scene.intersect`), and `directions` (..., 3), of any length
-        but zero, scene units; both broadcast, and the arrays of the result have the shape of the rays. A record of a
+        `origins` (..., 3), or (...) records of hits (see `Scene.intersect`), and `directions` (..., 3), of length 2**-64
+        or more, scene units; both broadcast, and the arrays of the result have the shape of the rays. A record of a
         miss sees the background. ValueError as for `Scene.intersect`.
         """
         rays = _validate.rays("Renderer.trace", origins, directions)

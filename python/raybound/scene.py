@@ -235,18 +235,25 @@ class Scene:
             the surface that it leaves, and one that goes inward is inside of the solid until it leaves it. A record of
             a miss starts no ray, and so is answered by a miss.
         directions : (..., 3) array_like
-            Of any length but zero. Both broadcast: `scene.intersect(*camera.rays())` is a picture of records.
+            Of length 2**-64 or more. Both broadcast: `scene.intersect(*camera.rays())` is a picture of records.
 
         Returns a structured array (...) with the fields
             hit (bool); t, t_error (float32, in lengths of the direction, from the ray's own origin); point, point_error,
             normal (3 float32; the outward unit normal); uv (2 float32); object_id, face_id (int32); entering (bool; the
             ray comes from outside of a solid, or from the side of a sheet's normal); within_id (int32; the closed solid
             that the ray was inside of on its way, -1 if in none or in several at once); touching (bool; it leaves that
-            solid where it enters this one); direction (3 float32; the ray's, scaled by a power of two); seal (uint32; of the other fields, so that changed records are noticed).
+            solid where it enters this one); direction (3 float32; the ray's, scaled by a power of two); seal (uint32; of
+            the other fields, so that changed records are noticed).
         A miss has t = inf, ids -1, and 0 elsewhere. Sees the scene as a renderer does.
 
-        ValueError for shapes that do not broadcast, zero directions, and records that were changed or that are not hits
-        of this scene as it is now.
+        `t_error` bounds how far `t` is from where the ray exactly meets the surface. `point_error` bounds how far
+        `point` is from the surface: the box point +- point_error holds a point of it. That need not be the very point
+        where the ray meets it, which may be as far off as t_error, times the direction, reaches: far for a ray that
+        comes from far away or grazes. Where t is beyond float32, which only origins beyond 2**60 can make it, it is the
+        largest float and t_error is infinite.
+
+        ValueError for shapes that do not broadcast, directions that are too short, and records that were changed or that
+        are not hits of this scene as it is now.
         """
         rays = _validate.rays("Scene.intersect", origins, directions)
         return self._document.snapshot().intersect(rays.origins, rays.ends).reshape(rays.shape)

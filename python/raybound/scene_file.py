@@ -5,18 +5,20 @@
      "ambient": [r, g, b],
      "background": [r, g, b],
      "camera": {"eye": [x, y, z], ...} or null,
-     "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat"},
+     "textures": [{"path": "wood.png", "scale": [1, 1], "wrap": "repeat" or [u, v] or null},
                   {"texels": {"shape": [h, w, 3], "base64": "..."}}],
      "meshes": [{"vertices": {"shape": [n, 3], "base64": "..."}, "faces": {"shape": [m, 3], "base64": "..."},
                  "normals": null, "uvs": null}],
      "materials": [{"diffuse": [r, g, b] or number or {"texture": 0}, "specular": ...}],
+     "shapes": [{"type": "Union", "shapes": [{"type": "Sphere"}, ...]}],
      "objects": [{"name": "ball", "shape": {"type": "Sphere", ...}, "material": 0, "transform": [[4 x 4]]}],
      "lights": [{"name": "lamp", "light": {"type": "PointLight", "position": [x, y, z], ...}}]}
 
 Shapes, lights, materials, textures and cameras are objects whose keys are their constructor's arguments; those with a
 default may be left out, and so may names, transforms and every list. Numbers are written with the digits that give the
 same float32. Texels are little-endian float32, linear, top row first. A shape {"type": "Mesh", "mesh": 0} refers to the
-list of meshes, whose arrays are nested lists or little-endian float32 in base64, and int32 for faces.
+list of meshes, whose arrays are nested lists or little-endian float32 in base64, and int32 for faces. A shape
+{"shape": 0} refers to the list of shapes, where each may refer to those before it: what nests deep is written there.
 """
 
 from __future__ import annotations
@@ -24,14 +26,17 @@ from __future__ import annotations
 import base64
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _validate, nff
+from ._description import arguments_of, check_keys, class_named, items, make, pick
+from ._nest import apart
+from ._shape_file import Known, shape_from_dict
 from ._validate import FloatArray, IndexArray
 from ._value import Value
 from .camera import Camera
@@ -39,17 +44,24 @@ from .lights import DirectionalLight, Light, PointLight, SpotLight
 from .materials import Material, Texture
 from .meshes import Mesh
 from .scene import Scene
-from .shapes import Box, Cone, Cylinder, Difference, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Transformed, Union
+from .shapes import Shape
 from .transform import Transform
 
 FORMAT, VERSION = "raybound scene", 1
-SHAPES: dict[str, type[Shape]] = {
-    cls.__name__: cls
-    for cls in (Sphere, Box, Cylinder, Cone, Disk, Polygon, Quadric, Mesh, Union, Intersection, Difference, Transformed)
-}
 LIGHTS: dict[str, type[Light]] = {cls.__name__: cls for cls in (DirectionalLight, PointLight, SpotLight)}
-T = TypeVar("T")
-KEYS = ("format", "version", "ambient", "background", "camera", "textures", "meshes", "materials", "objects", "lights")
+KEYS = (
+    "format",
+    "version",
+    "ambient",
+    "background",
+    "camera",
+    "textures",
+    "meshes",
+    "shapes",
+    "materials",
+    "objects",
+    "lights",
+)
 
 
 # Writing
@@ -63,6 +75,8 @@ class _Writer:
         self.materials: list[dict[str, Any]] = []
         self.textures: list[dict[str, Any]] = []
         self.meshes: list[dict[str, Any]] = []
+        self.shapes: list[dict[str, Any]] = []
+        self.places: dict[int, int] = {}  # in the list of shapes, by id
         self.indices: dict[Material | Texture | Mesh, int] = {}
 
     def value(self, value: object) -> Any:
@@ -89,7 +103,16 @@ class _Writer:
                 self.indices[value] = len(self.meshes)
                 self.meshes.append({name: _encoded(getattr(value, name)) for name in value._fields})
             return {"type": "Mesh", "mesh": self.indices[value]}
+        if id(value) in self.places:
+            return {"shape": self.places[id(value)]}
         return {"type": type(value).__name__, **self.fields(value)}
+
+    def deep(self, shapes: list[Shape]) -> None:
+        """Writes what of these nests too deep into the list of shapes."""
+        for value in apart(shapes):
+            written = self.typed(value)
+            self.places[id(value)] = len(self.shapes)
+            self.shapes.append(written)
 
     def material(self, value: Material) -> int:
         if value not in self.indices:
@@ -98,7 +121,7 @@ class _Writer:
         return self.indices[value]
 
     def texture(self, value: Texture) -> dict[str, Any]:
-        source: dict[str, Any] = {"scale": _plain(value.scale), "wrap": value.wrap}
+        source: dict[str, Any] = {"scale": _plain(value.scale), "wrap": _plain(value.wrap)}
         if value._location is not None:
             return {"path": self.path(value._location), **source}
         return {"texels": _encoded(value.texels), **source}
@@ -132,6 +155,7 @@ def to_dict(scene: Scene, folder: str | None = None) -> dict[str, Any]:
     with scene._lock:
         records = scene._records.copy()
     writer = _Writer(folder)
+    writer.deep([record.shape for record in records.objects.values()])
     objects = [
         {
             "name": record.name,
@@ -149,6 +173,7 @@ def to_dict(scene: Scene, folder: str | None = None) -> dict[str, Any]:
         "camera": None if records.camera is None else writer.fields(records.camera),
         "textures": writer.textures,
         "meshes": writer.meshes,
+        **({"shapes": writer.shapes} if writer.shapes else {}),
         "materials": writer.materials,
         "objects": objects,
         "lights": [{"name": r.name, "light": writer.typed(r.light)} for r in records.lights.values()],
@@ -190,6 +215,10 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
         return nff.parse(data, source)
     try:
         d = json.loads(data)
+    except RecursionError:
+        raise ValueError(
+            f"load_scene: {source!r} nests too deep for JSON (shapes may be in the list 'shapes' instead)"
+        ) from None
     except ValueError as error:  # JSONDecodeError or UnicodeDecodeError
         raise ValueError(f"load_scene: {source!r} is not JSON: {error}") from None
     return from_dict(d, folder=str(Path(source).absolute().parent), who=f"load_scene: {source!r}")
@@ -197,149 +226,77 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
 
 def from_dict(d: Mapping[str, Any], folder: str | None = None, who: str = "Scene.from_dict") -> Scene:
     """The scene that `to_dict` described; relative paths of textures start at `folder` (default: the current one)."""
-    _check_keys(who, d, KEYS)
+    check_keys(who, d, KEYS)
     if d.get("format", FORMAT) != FORMAT or d.get("version", VERSION) != VERSION:
         found = f"{d.get('format')!r}, {d.get('version')!r}"
         raise ValueError(f"{who}: format and version must be {FORMAT!r}, {VERSION}, got {found}")
-    scene = _make(who, Scene, d.get("ambient", 0.0), d.get("background", 0.0))
+    scene = make(who, Scene, d.get("ambient", 0.0), d.get("background", 0.0))
     if d.get("camera") is not None:
         scene.camera = camera_from_dict(d["camera"], f"{who}: camera")
-    textures = [_texture(item, folder, at) for at, item in _items(who, d, "textures")]
-    meshes = [_mesh(item, at) for at, item in _items(who, d, "meshes")]
-    materials = [_material(item, textures, at) for at, item in _items(who, d, "materials")]
+    textures = [_texture(item, folder, at) for at, item in items(who, d, "textures")]
+    known = Known([_mesh(item, at) for at, item in items(who, d, "meshes")], [])
+    for at, item in items(who, d, "shapes"):
+        known.shapes.append(shape_from_dict(item, known, at))
+    materials = [_material(item, textures, at) for at, item in items(who, d, "materials")]
     with scene.edit():
-        for at, item in _items(who, d, "objects"):
-            _check_keys(at, item, ("name", "shape", "material", "transform"), required=("shape", "material"))
-            material = _pick(f"{at}.material", item["material"], materials)
+        for at, item in items(who, d, "objects"):
+            check_keys(at, item, ("name", "shape", "material", "transform"), required=("shape", "material"))
+            material = pick(f"{at}.material", item["material"], materials)
             matrix = item.get("transform")
-            by = None if matrix is None else _make(at, Transform, matrix)
-            shape = _shape(item["shape"], meshes, f"{at}.shape")
-            _make(at, scene.add, shape, material, name=item.get("name"), transform=by)
-        for at, item in _items(who, d, "lights"):
-            _check_keys(at, item, ("name", "light"), required=("light",))
-            _make(at, scene.add_light, _light(item["light"], f"{at}.light"), name=item.get("name"))
+            by = None if matrix is None else make(at, Transform, matrix)
+            shape = shape_from_dict(item["shape"], known, f"{at}.shape")
+            make(at, scene.add, shape, material, name=item.get("name"), transform=by)
+        for at, item in items(who, d, "lights"):
+            check_keys(at, item, ("name", "light"), required=("light",))
+            make(at, scene.add_light, _light(item["light"], f"{at}.light"), name=item.get("name"))
     return scene
 
 
 def camera_from_dict(d: object, who: str) -> Camera:
     """A camera from its constructor's arguments."""
-    return _make(who, Camera, **_arguments(who, d, Camera))
-
-
-def _make(who: str, maker: Callable[..., T], *positional: Any, **named: Any) -> T:
-    """`maker(...)`, whose errors say where in the description they arose."""
-    try:
-        return maker(*positional, **named)
-    except TypeError as error:
-        raise TypeError(f"{who}: {error}") from None
-    except ValueError as error:
-        raise ValueError(f"{who}: {error}") from None
-
-
-def _items(who: str, d: Mapping[str, Any], key: str) -> list[tuple[str, Any]]:
-    """The entries of a list, each with its place for error messages."""
-    items = d.get(key, [])
-    if not isinstance(items, list):
-        raise TypeError(f"{who}: {key} must be a list, got {_validate.describe(items)}")
-    return [(f"{who}: {key}[{i}]", item) for i, item in enumerate(items)]
-
-
-def _check_keys(who: str, d: object, allowed: tuple[str, ...], required: tuple[str, ...] = ()) -> dict[str, Any]:
-    """`d`, which must be an object with these keys."""
-    if not isinstance(d, Mapping):
-        raise TypeError(f"{who} must be an object with keys {', '.join(allowed)}, got {_validate.describe(d)}")
-    for key in d:
-        if key not in allowed:
-            raise ValueError(f"{who} has the unknown key {key!r} (expected {', '.join(allowed)})")
-    for key in required:
-        if key not in d:
-            raise ValueError(f"{who} lacks the key {key!r}")
-    return dict(d)
-
-
-def _arguments(who: str, d: object, cls: type[Value], extra: tuple[str, ...] = ()) -> dict[str, Any]:
-    """The constructor's arguments for `cls` in `d`, without the keys in `extra`."""
-    required = tuple(name for name in cls._fields if name not in cls._defaults)
-    found = _check_keys(who, d, extra + cls._fields, extra + required)
-    return {key: value for key, value in found.items() if key not in extra}
-
-
-def _class(who: str, d: object, classes: dict[str, type[Any]]) -> type[Any]:
-    """The class that the key "type" names."""
-    kind = d.get("type") if isinstance(d, Mapping) else None
-    if not isinstance(kind, str) or kind not in classes:
-        raise ValueError(
-            f"{who} must be an object whose type is one of {', '.join(classes)}, got {_validate.describe(d)}"
-        )
-    return classes[kind]
-
-
-def _shape(d: object, meshes: list[Mesh], who: str) -> Shape:
-    cls = _class(who, d, SHAPES)
-    if cls is Mesh:
-        found = _check_keys(who, d, ("type", "mesh"), ("mesh",))
-        picked: Shape = _pick(f"{who}.mesh", found["mesh"], meshes)
-        return picked
-    arguments = _arguments(who, d, cls, ("type",))
-    if cls in (Union, Intersection, Difference):
-        combined: Shape = _make(who, cls, *(_shape(part, meshes, at) for at, part in _items(who, arguments, "shapes")))
-        return combined
-    if cls is Transformed:
-        arguments["shape"] = _shape(arguments["shape"], meshes, f"{who}.shape")
-        arguments["transform"] = _make(who, Transform, arguments["transform"])
-    if cls is Quadric and "clip" in arguments:
-        arguments["clip"] = _shape(arguments["clip"], meshes, f"{who}.clip")
-    made: Shape = _make(who, cls, **arguments)
-    return made
+    return make(who, Camera, **arguments_of(who, d, Camera))
 
 
 def _light(d: object, who: str) -> Light:
-    cls = _class(who, d, LIGHTS)
-    made: Light = _make(who, cls, **_arguments(who, d, cls, ("type",)))
+    cls = class_named(who, d, LIGHTS)
+    made: Light = make(who, cls, **arguments_of(who, d, cls, ("type",)))
     return made
 
 
 def _material(d: object, textures: list[Texture], who: str) -> Material:
-    arguments = _arguments(who, d, Material)
+    arguments = arguments_of(who, d, Material)
     diffuse = arguments.get("diffuse")
     if isinstance(diffuse, Mapping):
-        index = _check_keys(f"{who}.diffuse", diffuse, ("texture",), ("texture",))["texture"]
-        arguments["diffuse"] = _pick(f"{who}.diffuse.texture", index, textures)
-    return _make(who, Material, **arguments)
+        index = check_keys(f"{who}.diffuse", diffuse, ("texture",), ("texture",))["texture"]
+        arguments["diffuse"] = pick(f"{who}.diffuse.texture", index, textures)
+    return make(who, Material, **arguments)
 
 
 def _texture(d: object, folder: str | None, who: str) -> Texture:
-    found = _check_keys(who, d, ("path", "texels", "scale", "wrap"))
+    found = check_keys(who, d, ("path", "texels", "scale", "wrap"))
     if ("path" in found) == ("texels" in found):
         raise ValueError(f"{who} must have one of the keys 'path' and 'texels'")
     rest = {key: found[key] for key in ("scale", "wrap") if key in found}
     if "texels" in found:
-        return _make(who, Texture, _decoded(found["texels"], "<f4", f"{who}.texels", "texels"), **rest)
+        return make(who, Texture, _decoded(found["texels"], "<f4", f"{who}.texels", "texels"), **rest)
     path = _validate.file_path(who, "path", found["path"])
-    return _make(who, Texture, path if folder is None else str(Path(folder, path)), **rest)
+    return make(who, Texture, path if folder is None else str(Path(folder, path)), **rest)
 
 
 def _mesh(d: object, who: str) -> Mesh:
-    arguments = _arguments(who, d, Mesh)
+    arguments = arguments_of(who, d, Mesh)
     for name, value in arguments.items():
         if isinstance(value, Mapping):
             arguments[name] = _decoded(value, "<i4" if name == "faces" else "<f4", f"{who}.{name}", "numbers")
-    return _make(who, Mesh, **arguments)
+    return make(who, Mesh, **arguments)
 
 
 def _decoded(d: object, dtype: str, who: str, what: str) -> npt.NDArray[Any]:
     """The array that `_encoded` wrote."""
-    found = _check_keys(who, d, ("shape", "base64"), ("shape", "base64"))
+    found = check_keys(who, d, ("shape", "base64"), ("shape", "base64"))
     try:
         data = np.frombuffer(base64.b64decode(found["base64"], validate=True), dtype)
         return data.reshape(found["shape"]).astype(data.dtype.newbyteorder("="))
     except (ValueError, TypeError) as error:
         kind = "float32" if dtype == "<f4" else "int32"
         raise ValueError(f"{who} must be {kind} {what} of that shape in base64: {error}") from None
-
-
-def _pick(who: str, index: object, items: list[Any]) -> Any:
-    """The item that an index refers to."""
-    if not items:
-        raise ValueError(f"{who} refers to an empty list, got {_validate.describe(index)}")
-    return items[_validate.integer(who, "index", index, lowest=0, highest=len(items) - 1)]

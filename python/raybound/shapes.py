@@ -8,13 +8,17 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _validate
+from ._nest import Nest
 from ._validate import DoubleArray, FloatArray, Vector, packed
 from ._value import Value
 from .transform import Transform, rounded
 
 
 class Shape(Value):
-    """The base of all shapes: immutable values that can be compared, hashed, printed and pickled."""
+    """The base of all shapes: immutable values that can be compared, hashed, printed and pickled.
+
+    Shapes of shapes may nest to any depth.
+    """
 
     _native: _core.Shape
 
@@ -175,9 +179,10 @@ class Quadric(Shape):
         self._set(coefficients=tuple(kept.tolist()), clip=box, _native=native)
 
 
-class _Combination(Shape):
+class _Combination(Nest, Shape):
     """What unions, intersections and differences share: a tuple of shapes."""
 
+    _nested = "shapes"
     shapes: tuple[Shape, ...]
 
     def _combine(self, shapes: tuple[object, ...]) -> list[_core.Shape]:
@@ -201,8 +206,9 @@ class _Combination(Shape):
             raise TypeError(f"{type(self).__name__}.replace: unknown argument {unknown[0]!r} (expected 'shapes')")
         return type(self)(*changes.get("shapes", self.shapes))
 
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(repr(shape) for shape in self.shapes)})"
+    def _pieces(self) -> list[str | Value]:
+        inside = [piece for shape in self.shapes for piece in (", ", shape)][1:]
+        return [f"{type(self).__name__}(", *inside, ")"]
 
 
 class Union(_Combination):
@@ -241,9 +247,10 @@ class Difference(_Combination):
         self._set(_native=_core.csg_difference(parts))
 
 
-class Transformed(Shape):
+class Transformed(Nest, Shape):
     """A shape moved by a transform: `shape.transformed(t)`. Fields: `shape`, `transform` (rounded to float32)."""
 
+    _nested = "shape"
     shape: Shape
     transform: Transform
 
@@ -253,5 +260,5 @@ class Transformed(Shape):
         by = rounded("transformed", "t", by)
         self._set(shape=inner, transform=by, _native=_core.transformed(inner._native, np.array(by.matrix)))
 
-    def __repr__(self) -> str:
-        return f"{self.shape!r}.transformed({self.transform!r})"
+    def _pieces(self) -> list[str | Value]:
+        return [self.shape, f".transformed({self.transform!r})"]

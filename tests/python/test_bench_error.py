@@ -267,7 +267,7 @@ def test_bounces_are_the_same_whether_rays_skip_what_they_left() -> None:
     assert epsilon["blocked"] > both[0]["blocked"]  # by the surfaces that they leave
     with pytest.raises(ValueError, match=r"trace_bounces: offsets must be 'bounded', .*, got 'none'"):
         rb._core.trace_bounces(snapshot, o, d, precision="float32", offsets="none", skips=False)
-    with pytest.raises(ValueError, match="trace_bounces: directions must not be zero"):
+    with pytest.raises(ValueError, match=r"trace_bounces: directions must have a length .* at index 0"):
         rb._core.trace_bounces(snapshot, o, 0 * d, precision="float32", offsets="bounded", skips=False)
 
 

@@ -29,7 +29,7 @@ def any_rays(rng: Rng, shape: rb.Shape, n: int) -> tuple[np.ndarray, np.ndarray]
         origins = np.where(rng.random((n, 3)) < 0.5, corners, (low + high) / 2)
         directions = rng.integers(-1, 2, (n, 3)) * 1.0
     origins, directions = f32(np.clip(origins, -LARGEST, LARGEST)), f32(np.clip(directions, -LARGEST, LARGEST))
-    keep = directions.any(axis=1)
+    keep = np.linalg.norm(directions.astype(float), axis=1) >= 2.0**-64
     return origins[keep], directions[keep]
 
 

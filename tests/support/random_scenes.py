@@ -151,10 +151,13 @@ def transform(rng: Rng) -> rb.Transform | None:
     return rb.Transform.translate(*point(rng, 0.5)) @ turn @ stretch
 
 
+WRAPS = (None, "repeat", "clamp", "mirror", ("mirror", "clamp"))
+
+
 def texture(rng: Rng) -> rb.Texture:
     texels = rng.uniform(0, 1, (int(rng.integers(1, 6)), int(rng.integers(1, 6)), 3))
     scale = tuple(rng.uniform(0.5, 3.0, 2).tolist())
-    return rb.Texture(texels, scale, wrap=str(rng.choice(["repeat", "clamp", "mirror"])))
+    return rb.Texture(texels, scale, wrap=WRAPS[int(rng.integers(len(WRAPS)))])
 
 
 def material(rng: Rng) -> rb.Material:

@@ -145,8 +145,10 @@ bool misses_leaf(const Asked& asked) {
     return separated(hull, asked.shaft, margin);
 }
 
-// An expression is missed if all parts of a union are, or one of an intersection, or the first of a difference.
+// An expression is missed if all parts of a union are, or one of an intersection, or the first of a difference. Nothing
+// is known of high ones.
 bool misses(const Asked& asked, std::uint32_t index) {
+    if (asked.geometry.is_high(index)) return false;
     const CsgNode& node = asked.geometry.csg_nodes[index];
     if (node.kind == CsgKind::leaf) {
         const Asked part{asked.shaft, asked.geometry, asked.geometry.leaves[node.first], asked.bounds, asked.scale};

@@ -47,6 +47,7 @@ void ExactTracer::begin_tile() {
 }
 
 void ExactTracer::trace_eye(const RayBatch& rays, const ImageBlocks::Kept& kept, BatchRadiance& out) {
+    eye_mode_.packs = true;  // what is hard for one block is not for its whole tile
     changes_ = kept.changes;
     written_.clear();
     writes_ = cells_.blocks().is_open();
@@ -168,9 +169,11 @@ void ExactTracer::meet_face(const RayBatch& rays, Level& level, Face& face) {
     for (int k = 0; k < order.packs(); ++k)
         uv[std::size_t(k)] = meet_pack(rays, level, face, order.pack(k), order.lanes(k));
     const Material& material = *face.material;
+    const bool around = goes_around(scene_.geometry().leaves[face.leaf], face.face);
     for (int k = 0; k < order.packs(); ++k)
-        scatter(material.texture ? material.texture->lookup(uv[std::size_t(k)]) : Vec3<FloatPack>(material.diffuse),
-                order.pack(k), order.lanes(k), level.diffuse);
+        scatter(
+            material.texture ? material.texture->lookup(uv[std::size_t(k)], around) : Vec3<FloatPack>(material.diffuse),
+            order.pack(k), order.lanes(k), level.diffuse);
 }
 
 // Where the rays meet the face; returns its (u,v) there.
@@ -202,7 +205,8 @@ UV<FloatPack> ExactTracer::meet_pack(const RayBatch& rays, Level& level, const F
         const int i = index[lane];
         level.outside.states.set(i, departures_of(level, face, i).outer, face.outer);
     }
-    if (material.texture) material.texture->prefetch(hit.uv);
+    if (material.texture)
+        material.texture->prefetch(hit.uv, goes_around(scene_.geometry().leaves[face.leaf], face.face));
     return hit.uv;
 }
 

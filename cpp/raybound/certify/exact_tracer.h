@@ -87,7 +87,7 @@ class ExactTracer {
     Cells& cells_;
     ExactSettings settings_;
     ExactCounts counts_;
-    BatchMode eye_mode_;
+    BatchMode eye_mode_;  // batches that were given up are not tried again in a tile, packs in a block
     std::vector<std::unique_ptr<Level>> levels_;  // of the ray tree, made when they are first reached
     std::vector<std::uint32_t> last_blockers_;    // by light
     std::vector<std::optional<Piece>> pieces_;    // of faces seen in this tile, by a hash of their keys

@@ -2,24 +2,22 @@
 #pragma once
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "raybound/frame/user_rays.h"
 #include "raybound/frame/work_queue.h"
 #include "raybound/geometry/ray.h"
 
 namespace raybound {
 
-// The ray of a direction as users give it, which is `scale` times as long as the ray's.
+// The ray of a direction that has passed require_directions, which is `scale` times as long as the ray's.
 template <class T>
-inline Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale, std::size_t index) {
-    if (!scale_direction(direction, scale))
-        throw std::invalid_argument("directions must not be zero, direction " + std::to_string(index) + " is");
+inline Ray<T> user_ray(const Vec3<T>& origin, Vec3<T> direction, T& scale) {
+    scale_direction(direction, scale);
     return make_ray(origin, direction);
 }
 
-// Calls answer(i) for every i in [0, count), in chunks, on some threads (0: all cores).
+// Calls answer(i) for every i in [0, count), in chunks, on some threads (0: as many as may be used).
 template <class Answer>
 void answer_all(std::size_t count, const Watch& watch, const Answer& answer, int threads = 0) {
     constexpr std::size_t chunk = 512;

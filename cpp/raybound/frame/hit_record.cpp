@@ -44,6 +44,15 @@ std::int32_t id_of(const Snapshot& scene, std::uint32_t primitive) {
     return scene.objects()[scene.geometry().primitives[primitive].object].id;
 }
 
+// t in units of the direction as it was given. Where that is beyond float (origins beyond 2^60), t is the largest float
+// and nothing bounds its error.
+void store_t(HitRecord& record, const SurfacePoint<float>& at, float scale) {
+    record.t = minimum(at.t / scale, std::numeric_limits<float>::max());
+    record.t_error = at.t / scale > record.t ? infinity<float>
+                     : scale == 1            ? at.t_error
+                                             : next_float_up(at.t_error / scale);
+}
+
 // A solid's normal, on the side where the ray must see it: where it is all but across the ray, rounding may have turned
 // it over.
 Vec3d seen_normal(const Vec3d& normal, const Vec3d& direction, bool entering) {
@@ -113,15 +122,13 @@ HitRecord missed_record() {
 }
 
 HitRecord hit_record(const Snapshot& scene, const Nearest<float>& nearest, const WideRay<float>& ray, float scale) {
-    constexpr float most = std::numeric_limits<float>::max();  // a t beyond it, along a subnormal direction, saturates
     const Geometry& geometry = scene.geometry();
     const SurfacePoint<float> at = surface_point<float>(geometry, nearest.crossing, ray.wide, {true, true});
     const Vec3f& direction = ray.narrow.direction;
     const bool turned_by_ray = at.shading == at.normal && is_closed(geometry, geometry.primitives[nearest.primitive]);
     HitRecord record = missed_record();
     record.hit = true;
-    record.t = minimum(at.t / scale, most);
-    record.t_error = minimum(scale == 1 ? at.t_error : next_float_up(at.t_error / scale), most);
+    store_t(record, at, scale);
     store(at.point, record.point);
     store(at.point_error, record.point_error);
     store(turned_by_ray ? seen_normal(Vec3d(at.normal), Vec3d(direction), at.entering) : Vec3d(at.shading),

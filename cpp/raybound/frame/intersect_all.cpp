@@ -132,11 +132,12 @@ std::vector<HitRecord> records_of(const Snapshot& scene, const std::vector<RayCr
 
 AllHits intersect_all(const Snapshot& scene, const RayOrigins& origins, std::span<const Vec3f> directions,
                       const Watch& watch) {
+    require_directions<float>("Scene.intersect_all", directions);
     std::vector<std::vector<HitRecord>> found(origins.size());
     answer_all(origins.size(), watch, [&](std::size_t i) {
         float scale;
         const RayStart start = origins.along(i, directions[i]);
-        const WideRay<float> ray(user_ray(start.origin, directions[i], scale, i));
+        const WideRay<float> ray(user_ray(start.origin, directions[i], scale));
         if (!start.begins) return;
         found[i] = records_of(scene, Crossings(scene, ray, start.from).find(), ray, start.from, scale);
     });

@@ -1,8 +1,8 @@
 #include "raybound/frame/offsets.h"
 
 #include <ctime>
-#include <stdexcept>
 
+#include "raybound/frame/user_rays.h"
 #include "raybound/trace/shading.h"
 
 namespace raybound {
@@ -75,11 +75,12 @@ Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, const Departure& de
 template <class T>
 Bounces trace_bounces(const Snapshot& scene, std::span<const Vec3d> origins, std::span<const Vec3d> directions,
                       const Leaving& leaving) {
+    require_directions<T>("trace_bounces", directions);
     std::vector<WideRay<T>> rays;
     rays.reserve(origins.size());
     for (std::size_t i = 0; i < origins.size(); ++i) {
         Vec3<T> direction(directions[i]);
-        if (!unit_direction(direction)) throw std::invalid_argument("trace_bounces: directions must not be zero");
+        make_unit(direction);
         rays.emplace_back(Vec3<T>(origins[i]), direction);
     }
     Bounces counts;

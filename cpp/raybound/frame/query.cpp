@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 
 #include "raybound/frame/answers.h"
 #include "raybound/frame/stopwatch.h"
+#include "raybound/frame/user_rays.h"
 
 namespace raybound {
 
@@ -58,11 +58,12 @@ void fill_record(ShapeHitRecord& record, const Geometry& geometry, const Crossin
 
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, const RayOrigins& origins,
                                       std::span<const Vec3f> directions, const Watch& watch) {
+    require_directions<float>("Scene.intersect", directions);
     std::vector<HitRecord> records(origins.size(), missed_record());
     answer_all(origins.size(), watch, [&](std::size_t i) {
         float scale;
         const RayStart start = origins.along(i, directions[i]);
-        const WideRay<float> ray(user_ray(start.origin, directions[i], scale, i));
+        const WideRay<float> ray(user_ray(start.origin, directions[i], scale));
         if (!start.begins) return;
         const Nearest<float> nearest = closest_hit(scene, ray, start.from);
         if (nearest.hit) records[i] = hit_record(scene, nearest, ray, scale);
@@ -107,13 +108,13 @@ std::vector<std::uint8_t> shape_contains(const Shape& shape, std::span<const Vec
 
 ClosestHits closest_hits(const Snapshot& scene, std::span<const Vec3f> origins, std::span<const Vec3f> directions,
                          int threads, const Watch& watch) {
+    require_directions<float>("closest_hits", directions);
     const std::size_t count = origins.size();
     ClosestHits hits{std::vector<float>(count, infinity<float>), std::vector<std::int32_t>(count, -1),
                      std::vector<std::int32_t>(count, -1), 0};
     const auto search = [&](std::size_t i) {
         float scale;
-        const Nearest<float> nearest =
-            closest_hit(scene, WideRay<float>(user_ray(origins[i], directions[i], scale, i)));
+        const Nearest<float> nearest = closest_hit(scene, WideRay<float>(user_ray(origins[i], directions[i], scale)));
         if (!nearest.hit) return;
         hits.t[i] = nearest.t / scale;
         hits.object_id[i] = object_id(scene, nearest);
@@ -144,6 +145,7 @@ template <class T>
 std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const Vec3d> origins,
                                             std::span<const Vec3d> directions, Offsets offsets, bool inward,
                                             const Watch& watch) {
+    require_directions<T>("intersect", directions);
     Geometry geometry;
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
@@ -152,7 +154,7 @@ std::vector<ShapeHitRecord> intersect_shape(const Shape& shape, std::span<const 
         records[i].t = infinity<double>;
         records[i].face_id = -1;
         T scale, entry;
-        const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale, i);
+        const Ray<T> ray = user_ray(Vec3<T>(origins[i]), Vec3<T>(directions[i]), scale);
         if (!crosses(primitive.bounds, SlabRay<T>(ray), infinity<T>, &entry)) return;
         const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, WideRay<T>(ray));
         if (crossing.hit && T(crossing.t) < infinity<T>)

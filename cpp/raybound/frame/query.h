@@ -1,4 +1,4 @@
-// Questions about rays, many at once and on all cores: what they hit, whether segments are blocked, how one shape
+// Questions about rays, many at once and on many threads: what they hit, whether segments are blocked, how one shape
 // answers. `watch` is called while they are computed and may throw to cancel them.
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace raybound {
 
-// The closest hits. t is in units of each direction's length. Throws std::invalid_argument for a zero direction.
+// The closest hits. t is in units of each direction's length. Throws std::invalid_argument for a direction that is too
+// short (user_rays.h).
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, const RayOrigins& origins,
                                       std::span<const Vec3f> directions, const Watch& watch);
 
@@ -38,8 +39,8 @@ std::vector<std::uint8_t> occluded(const Snapshot& scene, const RayOrigins& orig
 // Which points lie in a closed shape. Throws std::invalid_argument if it is open.
 std::vector<std::uint8_t> shape_contains(const Shape& shape, std::span<const Vec3d> points, const Watch& watch);
 
-// The searches alone, without points, bounds and shading, on some threads (0: all cores), and the seconds they took: to
-// measure them. t, in units of each direction's length, is the one that searches compare.
+// The searches alone, without points, bounds and shading, on some threads (0: as many as may be used), and the seconds
+// they took: to measure them. t, in units of each direction's length, is the one that searches compare.
 struct ClosestHits {
     std::vector<float> t;
     std::vector<std::int32_t> object_id, face_id;

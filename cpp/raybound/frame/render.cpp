@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
-#include <string>
 
 #include "raybound/frame/stopwatch.h"
 #include "raybound/frame/tiling.h"
+#include "raybound/frame/user_rays.h"
 
 namespace raybound {
 
@@ -88,8 +87,7 @@ template <class T>
 std::vector<Tracer<T>> make_tracers(const Snapshot& scene, const RenderSettings& settings,
                                     const std::atomic<bool>& cancelled) {
     const TraceSettings trace{settings.max_depth, settings.acceleration, &cancelled};
-    return std::vector<Tracer<T>>(std::size_t(settings.threads > 0 ? settings.threads : hardware_threads()),
-                                  Tracer<T>(scene, trace));
+    return std::vector<Tracer<T>>(std::size_t(thread_count(settings.threads)), Tracer<T>(scene, trace));
 }
 
 template <class T>
@@ -109,7 +107,7 @@ RenderStatistics render_with(const Snapshot& scene, const Camera& camera, FrameB
     const Stopwatch watch_time;
     RenderStatistics statistics;
     statistics.threads = run_work(
-        tiling.count(), settings.threads, cancelled,
+        tiling.count(), int(tracers.size()), cancelled,
         [&](int item, int worker) {
             Tracer<T>& tracer = tracers[std::size_t(worker)];
             const Tile tile = tiling.tile(item);

@@ -119,7 +119,7 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
     std::atomic<bool> cancelled = false;
     const ExactSettings exact{settings.max_depth, camera.pixel_angle(), {}, &cancelled};
     std::vector<ExactTracer> tracers;
-    const int threads = settings.threads > 0 ? settings.threads : hardware_threads();
+    const int threads = thread_count(settings.threads);
     for (int k = 0; k < threads; ++k) tracers.emplace_back(scene, cells, exact);
     std::vector<BlockRays> work(static_cast<std::size_t>(threads));
     const Tiling tiling(buffers, 1);
@@ -128,7 +128,7 @@ RenderStatistics render_exactly(const Snapshot& scene, const Camera& camera, Fra
     const Stopwatch time;
     RenderStatistics statistics;
     statistics.threads = run_work(
-        tiling.count(), settings.threads, cancelled,
+        tiling.count(), threads, cancelled,
         [&](int item, int worker) {
             const Tile tile = tiling.tile(item);
             tracers[std::size_t(worker)].begin_tile();

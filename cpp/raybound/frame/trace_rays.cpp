@@ -8,10 +8,9 @@ namespace raybound {
 
 namespace {
 
-void make_unit(std::vector<Vec3f>& directions, const std::string& who) {
-    for (std::size_t i = 0; i < directions.size(); ++i)
-        if (!unit_direction(directions[i]))
-            throw std::invalid_argument(who + ": directions must not be zero, direction " + std::to_string(i) + " is");
+void make_unit_vectors(const std::string& who, std::vector<Vec3f>& directions) {
+    require_directions<float>(who, std::span<const Vec3f>(directions));
+    for (Vec3f& direction : directions) make_unit(direction);
 }
 
 // Calls trace(i, tracer) for every ray, on several threads.
@@ -20,16 +19,16 @@ RenderStatistics trace_all(const Snapshot& scene, std::size_t count, const Rende
                            const Trace& trace) {
     constexpr std::size_t chunk = 256;
     std::atomic<bool> cancelled = false;
-    const auto threads = std::size_t(settings.threads > 0 ? settings.threads : hardware_threads());
+    const int threads = thread_count(settings.threads);
     std::vector<Tracer<float>> tracers(
-        threads, Tracer<float>(scene, {settings.max_depth, settings.acceleration, &cancelled}));
+        std::size_t(threads), Tracer<float>(scene, {settings.max_depth, settings.acceleration, &cancelled}));
     const auto work = [&](int item, int worker) {
         const std::size_t begin = std::size_t(item) * chunk;
         for (std::size_t i = begin; i < std::min(count, begin + chunk) && !cancelled; ++i)
             trace(i, tracers[std::size_t(worker)]);
     };
     RenderStatistics statistics;
-    statistics.threads = run_work(int((count + chunk - 1) / chunk), settings.threads, cancelled, work, watch);
+    statistics.threads = run_work(int((count + chunk - 1) / chunk), threads, cancelled, work, watch);
     for (const Tracer<float>& tracer : tracers) statistics.rays += tracer.counts();
     return statistics;
 }
@@ -62,7 +61,7 @@ void add_segments(const RayTreeNode& node, std::int32_t ray, std::int32_t parent
 
 TracedRays trace_rays(const Snapshot& scene, const RayOrigins& origins, std::vector<Vec3f> directions,
                       const RenderSettings& settings, const Watch& watch) {
-    make_unit(directions, "Renderer.trace");
+    make_unit_vectors("Renderer.trace", directions);
     TracedRays result{std::vector<Vec3f>(origins.size(), Vec3f(scene.background())),
                       std::vector<std::int32_t>(origins.size(), -1),
                       std::vector<float>(origins.size(), infinity<float>),
@@ -80,7 +79,7 @@ TracedRays trace_rays(const Snapshot& scene, const RayOrigins& origins, std::vec
 
 std::vector<PathRecord> trace_paths(const Snapshot& scene, const RayOrigins& origins, std::vector<Vec3f> directions,
                                     const RenderSettings& settings, const Watch& watch) {
-    make_unit(directions, "Renderer.paths");
+    make_unit_vectors("Renderer.paths", directions);
     std::vector<std::vector<PathRecord>> trees(origins.size());
     trace_all(scene, origins.size(), settings, watch, [&](std::size_t i, Tracer<float>& tracer) {
         const RayStart start = origins.along(i, directions[i]);

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "raybound/frame/processors.h"
+
 namespace raybound {
 
 namespace {
@@ -39,11 +41,11 @@ void drain(Shared& shared, int items, int worker, std::atomic<bool>& cancelled,
 
 }  // namespace
 
-int hardware_threads() { return std::max(1, int(std::thread::hardware_concurrency())); }
+int thread_count(int threads) { return threads > 0 ? threads : usable_processors(); }
 
 int run_work(int items, int threads, std::atomic<bool>& cancelled, const std::function<void(int, int)>& work,
              const Watch& watch) {
-    const int count = std::max(1, std::min(threads > 0 ? threads : hardware_threads(), items));
+    const int count = std::max(1, std::min(thread_count(threads), items));
     Shared shared;
     shared.running = count;
     std::vector<std::jthread> pool;

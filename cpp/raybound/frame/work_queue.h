@@ -4,17 +4,16 @@
 #include <atomic>
 #include <functional>
 
+#include "raybound/geometry/watch.h"
+
 namespace raybound {
 
-// How the thread that waits looks after the work: called every few milliseconds with the fraction done; may throw,
-// which cancels the work and is passed on.
-using Watch = std::function<void(double)>;
+// The number of threads that is meant; 0 stands for usable_processors(), which another call may find changed.
+int thread_count(int threads);
 
-// Runs work(item, worker) for every item in [0, items), on `threads` threads (0: all cores). Items are handed out in
-// order, one at a time; results must not depend on who computes what. Returns the number of threads.
+// Runs work(item, worker) for every item in [0, items), on `threads` threads (0: usable_processors()). Items are
+// handed out in order, one at a time; results must not depend on who computes what. Returns the number of threads.
 int run_work(int items, int threads, std::atomic<bool>& cancelled, const std::function<void(int, int)>& work,
              const Watch& watch);
-
-int hardware_threads();
 
 }  // namespace raybound

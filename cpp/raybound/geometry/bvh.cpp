@@ -38,8 +38,8 @@ struct Range {
 
 class Builder {
   public:
-    Builder(std::span<const Box> boxes, const Bvh::Leaves& leaves, LargeArray<BvhNode>& nodes)
-        : leaves_(leaves), nodes_(nodes) {
+    Builder(std::span<const Box> boxes, const Bvh::Leaves& leaves, LargeArray<BvhNode>& nodes, Lookout& lookout)
+        : leaves_(leaves), nodes_(nodes), lookout_(lookout) {
         items_.reserve(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i)
             items_.push_back({boxes[i], std::uint32_t(i), leaves.class_of(std::uint32_t(i))});
@@ -49,13 +49,21 @@ class Builder {
     void build() { build_node(make_range(0, std::uint32_t(items_.size()), 0), Bvh::no_parent); }
 
   private:
+    template <class Visit>
+    void visit_items(const Range& range, const Visit& visit) const {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            lookout_.step();
+            visit(items_[i]);
+        }
+    }
+
     Range make_range(std::uint32_t begin, std::uint32_t end, int depth) const {
         Range range{begin, end, {}, depth, false};
         Census census;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            range.bounds.extend(items_[i].bounds);
-            census.add(items_[i].item_class);
-        }
+        visit_items(range, [&](const Item& item) {
+            range.bounds.extend(item.bounds);
+            census.add(item.item_class);
+        });
         const auto first = std::size_t(items_[begin].item_class);
         range.is_leaf = census.count[first] == int(range.size()) && int(range.size()) <= capacity_[first];
         return range;
@@ -137,6 +145,7 @@ class Builder {
         const int axis = e.x > e.y ? (e.x > e.z ? 0 : 2) : (e.y > e.z ? 1 : 2);
         std::nth_element(items_.begin() + range.begin, items_.begin() + middle, items_.begin() + range.end,
                          [&](const Item& a, const Item& b) {
+                             lookout_.step();
                              return std::pair(a.center(axis), a.index) < std::pair(b.center(axis), b.index);
                          });
         return middle;
@@ -187,21 +196,21 @@ class Builder {
     // The cheapest of the planes between bins by the surface area heuristic; range.begin if there is none.
     std::uint32_t partition_by_area(const Range& range) {
         Box centers;
-        for (std::uint32_t i = range.begin; i < range.end; ++i)
-            centers.extend({items_[i].center(0), items_[i].center(1), items_[i].center(2)});
+        visit_items(range, [&](const Item& item) { centers.extend({item.center(0), item.center(1), item.center(2)}); });
         std::array<Bins, 3> bins;
         Vec3f scale;
         for (int axis = 0; axis < 3; ++axis) {
             scale[axis] = float(bin_count) / (centers.upper[axis] - centers.lower[axis]);
             if (!(scale[axis] < infinity<float>)) scale[axis] = 0;
         }
-        for (std::uint32_t i = range.begin; i < range.end; ++i)
+        visit_items(range, [&](const Item& item) {
             for (int axis = 0; axis < 3; ++axis) {
-                const int k = bin_of(items_[i].center(axis), centers.lower[axis], scale[axis]);
+                const int k = bin_of(item.center(axis), centers.lower[axis], scale[axis]);
                 Bin& bin = bins[std::size_t(axis)][std::size_t(k)];
-                bin.bounds.extend(items_[i].bounds);
-                bin.census.add(items_[i].item_class);
+                bin.bounds.extend(item.bounds);
+                bin.census.add(item.item_class);
             }
+        });
         Plane best;
         for (int axis = 0; axis < 3; ++axis)
             if (scale[axis] > 0)
@@ -215,15 +224,16 @@ class Builder {
 
     const Bvh::Leaves& leaves_;
     LargeArray<BvhNode>& nodes_;
+    Lookout& lookout_;
     std::vector<Item> items_;
     std::array<int, most_classes> capacity_{};
 };
 
 }  // namespace
 
-Bvh::Bvh(std::span<const Box> boxes, const Leaves& leaves) {
+Bvh::Bvh(std::span<const Box> boxes, const Leaves& leaves, Lookout& lookout) {
     if (boxes.empty()) return;
-    Builder(boxes, leaves, nodes_).build();
+    Builder(boxes, leaves, nodes_, lookout).build();
     nodes_.shrink_to_fit();
 }
 

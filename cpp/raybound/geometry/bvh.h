@@ -8,6 +8,7 @@
 
 #include "raybound/geometry/box.h"
 #include "raybound/geometry/large_array.h"
+#include "raybound/geometry/watch.h"
 #include "raybound/numbers/pack.h"
 
 namespace raybound {
@@ -32,7 +33,7 @@ class Bvh {
     };
 
     Bvh() = default;
-    Bvh(std::span<const Box> boxes, const Leaves& leaves);
+    Bvh(std::span<const Box> boxes, const Leaves& leaves, Lookout& lookout);
 
     std::span<const BvhNode> nodes() const { return nodes_; }
     std::size_t bytes() const { return nodes_.capacity() * sizeof(BvhNode); }

@@ -56,27 +56,22 @@ inline Ray<T> make_segment(const Vec3<T>& origin, const Vec3<T>& target) {
     return make_segment(origin, target, power_of_two_below(maximum(reach, T(0x1p-100))));
 }
 
-// A direction of any length as users give it, scaled by a power of two so that its largest component is in [1, 2):
-// nothing is rounded, and a t along it is `scale` times a t along the original. False for a zero vector.
+// A direction as users give it, whose length is not subnormal, scaled by a power of two so that its largest component
+// is in [1, 2): nothing but components too small to matter is rounded, and a t along it is `scale` times a t along the
+// original.
 template <std::floating_point T>
-inline bool scale_direction(Vec3<T>& d, T& scale) {
-    const T reach = max_component(absolute(d));
-    if (!(reach > 0)) return false;
-    const T lift = reach < std::numeric_limits<T>::min() ? T(0x1p30) : T(1);  // subnormal: out of that range first
-    scale = power_of_two_below(reach * lift);
-    d = d * lift * (T(1) / scale);
-    scale = scale / lift;
-    return true;
+inline void scale_direction(Vec3<T>& d, T& scale) {
+    scale = power_of_two_below(max_component(absolute(d)));
+    d = d * (T(1) / scale);
 }
 
-// The unit vector of a direction as users give it. One that is a unit vector up to rounding is kept bit for bit.
+// The unit vector of such a direction. One that is a unit vector up to rounding is kept bit for bit.
 template <std::floating_point T>
-inline bool unit_direction(Vec3<T>& d) {
-    if (abs(dot(d, d) - T(1)) <= 16 * NumberTraits<T>::unit_roundoff) return true;
+inline void make_unit(Vec3<T>& d) {
+    if (abs(dot(d, d) - T(1)) <= 16 * NumberTraits<T>::unit_roundoff) return;
     T scale;
-    if (!scale_direction(d, scale)) return false;
+    scale_direction(d, scale);
     d = normalize(d);
-    return true;
 }
 
 // The same ray for the wide type. A segment's direction is taken anew from its ends, which are exact: so "before the

@@ -32,14 +32,14 @@ Accelerator::Kind Accelerator::kind_of(const Geometry& geometry, std::uint32_t p
     return Kind::single;
 }
 
-Accelerator::Accelerator(const Geometry& geometry) {
+Accelerator::Accelerator(const Geometry& geometry, Lookout& lookout) {
     std::vector<Box> boxes;
     boxes.reserve(geometry.primitives.size());
     for (const Primitive& primitive : geometry.primitives) boxes.push_back(primitive.bounds);
     const Bvh::Leaves leaves{[&](std::uint32_t item) { return int(kind_of(geometry, item)); },
                              [](int kind) { return Kind(kind) == Kind::single ? 1 : pack_width; },
                              [&](std::span<const std::uint32_t> items) { return make_leaf(geometry, items); }};
-    bvh_ = Bvh(boxes, leaves);
+    bvh_ = Bvh(boxes, leaves, lookout);
     built_cost_ = bvh_.cost();
     spheres_.shrink_to_fit();
     triangles_.shrink_to_fit();

@@ -30,7 +30,7 @@ struct SearchRay {
 class Accelerator {
   public:
     Accelerator() = default;
-    explicit Accelerator(const Geometry& geometry);
+    Accelerator(const Geometry& geometry, Lookout& lookout);
 
     const Bvh& bvh() const { return bvh_; }
     std::size_t bytes() const;

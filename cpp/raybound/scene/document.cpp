@@ -1,9 +1,10 @@
 #include "raybound/scene/document.h"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <utility>
+
+#include "raybound/geometry/sole_owner.h"
 
 namespace raybound {
 
@@ -23,14 +24,6 @@ ObjectRecord checked_object(std::int32_t id, ShapePointer shape, MaterialPointer
                                     format(reach));
     return {id, std::move(shape), std::move(material),
             placed.is_identity() ? nullptr : std::make_shared<const Affine>(placed)};
-}
-
-// What others have read before they let go must not be overtaken by what is written now.
-template <class T>
-bool is_sole_owner(const std::shared_ptr<T>& pointer) {
-    const bool sole = pointer.use_count() == 1;
-    std::atomic_thread_fence(std::memory_order_acquire);
-    return sole;
 }
 
 template <class Records>
@@ -164,8 +157,21 @@ std::optional<Boxd> Document::bounds() const {
     return box;
 }
 
-SnapshotPointer Document::snapshot() const {
-    const std::scoped_lock building(snapshot_mutex_);  // one thread builds, others wait for it
+Document::Building::Building(const Document& document, const Watch& watch) : document_(document) {
+    if (document.builder_ == std::this_thread::get_id())
+        throw std::logic_error("Scene: it cannot be rendered or asked while it is being prepared for that");
+    while (!document.snapshot_mutex_.try_lock_for(std::chrono::milliseconds(20)))
+        if (watch) watch(0);
+    document.builder_ = std::this_thread::get_id();
+}
+
+Document::Building::~Building() {
+    document_.builder_ = std::thread::id();
+    document_.snapshot_mutex_.unlock();
+}
+
+SnapshotPointer Document::snapshot(const Watch& watch) const {
+    const Building building(*this, watch);
     State state;
     {
         const std::scoped_lock lock(mutex_);
@@ -173,14 +179,15 @@ SnapshotPointer Document::snapshot() const {
         if (snapshot_ && snapshot_->revision() == current.revision) return snapshot_;
         state = current;
     }
+    Lookout lookout(watch);
     // The earlier snapshot is copied, or taken apart if nobody else holds it.
     const std::shared_ptr<Snapshot> earlier = std::exchange(snapshot_, nullptr);
     if (!earlier)
-        snapshot_ = std::make_shared<Snapshot>(state.content, state.revision);
+        snapshot_ = std::make_shared<Snapshot>(state.content, state.revision, lookout);
     else if (is_sole_owner(earlier))
-        snapshot_ = std::make_shared<Snapshot>(std::move(*earlier), state.content, state.revision);
+        snapshot_ = std::make_shared<Snapshot>(std::move(*earlier), state.content, state.revision, lookout);
     else
-        snapshot_ = std::make_shared<Snapshot>(*earlier, state.content, state.revision);
+        snapshot_ = std::make_shared<Snapshot>(*earlier, state.content, state.revision, lookout);
     return snapshot_;
 }
 

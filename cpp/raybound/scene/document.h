@@ -1,8 +1,10 @@
 // The scene that scripts edit. Safe from any thread; rendering reads snapshots, so editing never races with it.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 #include "raybound/scene/snapshot.h"
 
@@ -33,8 +35,9 @@ class Document {
     Boxd object_bounds(std::int32_t id) const;
     std::optional<Boxd> bounds() const;
 
-    // The committed scene; built at most once for each revision.
-    SnapshotPointer snapshot() const;
+    // The committed scene; built at most once for each revision. `watch` is called while it is built or waited for, and
+    // may throw to stop that; it must not ask for a snapshot itself (std::logic_error).
+    SnapshotPointer snapshot(const Watch& watch = {}) const;
 
   private:
     // The content is shared with snapshots, and copied before it is written where it is.
@@ -44,13 +47,26 @@ class Document {
         std::int64_t revision = 0;
     };
 
+    // Holds the right to build: one thread builds, others wait for it.
+    class Building {
+      public:
+        Building(const Document& document, const Watch& watch);
+        ~Building();
+        Building(const Building&) = delete;
+        Building& operator=(const Building&) = delete;
+
+      private:
+        const Document& document_;
+    };
+
     SceneContent& writable();
     void edited();
 
     mutable std::mutex mutex_;
     State state_;
     std::optional<State> before_;  // during an edit block: what everybody else sees
-    mutable std::mutex snapshot_mutex_;
+    mutable std::timed_mutex snapshot_mutex_;
+    mutable std::atomic<std::thread::id> builder_;
     mutable std::shared_ptr<Snapshot> snapshot_;
 };
 

@@ -33,11 +33,11 @@ using ContentPointer = std::shared_ptr<const SceneContent>;
 
 class Snapshot {
   public:
-    Snapshot(ContentPointer content, std::int64_t revision);
+    Snapshot(ContentPointer content, std::int64_t revision, Lookout& lookout);
 
     // The next one, from an earlier one: where the same objects are still there, only those that have changed are
     // compiled anew, and the accelerator is refitted.
-    Snapshot(Snapshot earlier, ContentPointer content, std::int64_t revision);
+    Snapshot(Snapshot earlier, ContentPointer content, std::int64_t revision, Lookout& lookout);
 
     const Geometry& geometry() const { return geometry_; }
     const Accelerator& accelerator() const { return accelerator_; }
@@ -50,8 +50,8 @@ class Snapshot {
     std::size_t bytes() const;  // of all this, the shared data of meshes counted once; not of shapes and textures
 
   private:
-    void build();
-    bool update(const SceneContent& before);
+    void build(Lookout& lookout);
+    bool update(const SceneContent& before, Lookout& lookout);
 
     ContentPointer content_;
     std::int64_t revision_;

@@ -1,4 +1,6 @@
 // Bounds and frames of the primitives.
+#include <span>
+
 #include "raybound/shapes/mesh.h"
 #include "raybound/shapes/unit_quadric.h"
 
@@ -54,13 +56,46 @@ Boxd frame_bounds(const Shape& shape, const Affine& frame) {
     return box;
 }
 
-// Parts that overlap in one position of the axes and not in another enclose nothing: bounds of no extent then.
+Boxd primitive_bounds(const Shape& shape, const Affine& placement) {
+    Boxd box;
+    switch (shape.kind()) {
+        case ShapeKind::polygon:
+            for (const Vec3f& v : shape.vertices()) box.extend(placement.point(Vec3d(v)));
+            return box;
+        case ShapeKind::mesh:
+            for (const Vec3f& v : shape.mesh()->vertices()) box.extend(placement.point(Vec3d(v)));
+            return box;
+        default:
+            return frame_bounds(shape, placement * unit_frame(shape));
+    }
+}
+
+// The bounds of a CSG operation from those of its parts, of which there is one at least.
+Boxd combined_bounds(ShapeKind operation, std::span<const Boxd> parts) {
+    Boxd box = parts[0];
+    if (operation == ShapeKind::csg_difference) return box;
+    for (const Boxd& part : parts.subspan(1)) {
+        if (operation == ShapeKind::csg_union)
+            box.extend(part);
+        else
+            box = intersection(box, part);
+    }
+    return operation == ShapeKind::csg_union ? box : collapsed(box);
+}
+
+// A CSG operation whose parts are being bounded: their boxes follow those of the operations it is part of.
+struct Open {
+    const Shape* shape;
+    Affine placement;
+    std::size_t next = 0, first_box = 0;
+};
+
+}  // namespace
+
 Boxd collapsed(const Boxd& box) {
     const Vec3d middle = box.center();
     return {minimum(box.lower, middle), maximum(box.upper, middle)};
 }
-
-}  // namespace
 
 Box conservative_box(const Boxd& box) {
     const double reach = maximum(max_component(absolute(box.lower)), max_component(absolute(box.upper)));
@@ -94,28 +129,30 @@ Affine unit_frame(const Shape& shape) {
 }
 
 Boxd shape_bounds(const Shape& shape, const Affine& placement) {
-    Boxd box;
-    switch (shape.kind()) {
-        case ShapeKind::polygon:
-            for (const Vec3f& v : shape.vertices()) box.extend(placement.point(Vec3d(v)));
-            return box;
-        case ShapeKind::mesh:
-            for (const Vec3f& v : shape.mesh()->vertices()) box.extend(placement.point(Vec3d(v)));
-            return box;
-        case ShapeKind::transformed:
-            return shape_bounds(*shape.parts()[0], placement * shape.transform());
-        case ShapeKind::csg_union:
-            for (const auto& part : shape.parts()) box.extend(shape_bounds(*part, placement));
-            return box;
-        case ShapeKind::csg_intersection:
-            box = shape_bounds(*shape.parts()[0], placement);
-            for (const auto& part : shape.parts()) box = intersection(box, shape_bounds(*part, placement));
-            return collapsed(box);
-        case ShapeKind::csg_difference:
-            return shape_bounds(*shape.parts()[0], placement);
-        default:
-            return frame_bounds(shape, placement * unit_frame(shape));
+    std::vector<Open> open;
+    std::vector<Boxd> boxes;
+    const auto enter = [&](const Shape& part, Affine map) {
+        const Shape& inner = strip_transforms(part, map);
+        if (inner.parts().empty())
+            boxes.push_back(primitive_bounds(inner, map));
+        else if (map.is_identity() && inner.own_bounds())
+            boxes.push_back(*inner.own_bounds());
+        else
+            open.push_back({&inner, map, 0, boxes.size()});
+    };
+    enter(shape, placement);
+    while (!open.empty()) {
+        Open& at = open.back();
+        if (at.next < at.shape->parts().size()) {
+            enter(*at.shape->parts()[at.next++], at.placement);
+            continue;
+        }
+        const Boxd box = combined_bounds(at.shape->kind(), std::span(boxes).subspan(at.first_box));
+        boxes.resize(at.first_box);
+        boxes.push_back(box);
+        open.pop_back();
     }
+    return boxes[0];
 }
 
 }  // namespace raybound

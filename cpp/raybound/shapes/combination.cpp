@@ -1,5 +1,5 @@
 // CSG operations: what can be combined, and whether anything is enclosed.
-#include <algorithm>
+#include <span>
 #include <stdexcept>
 
 #include "raybound/shapes/inside.h"
@@ -10,7 +10,7 @@ namespace {
 
 Boxd overlap(const std::vector<ShapePointer>& parts) {
     Boxd box = shape_bounds(*parts[0], {});
-    for (const auto& part : parts) box = intersection(box, shape_bounds(*part, {}));
+    for (const auto& part : std::span(parts).subspan(1)) box = intersection(box, shape_bounds(*part, {}));
     return box;
 }
 
@@ -34,10 +34,7 @@ bool surely_holds(const Shape& shape, const Shape& other) {
     return true;
 }
 
-void require_content(ShapeKind operation, const std::vector<ShapePointer>& parts) {
-    if (operation == ShapeKind::csg_intersection && overlap(parts).is_empty())
-        throw std::invalid_argument("Intersection: the parts do not overlap, their intersection encloses nothing");
-    if (operation != ShapeKind::csg_difference) return;
+void require_remainder(const std::vector<ShapePointer>& parts) {
     for (std::size_t i = 1; i < parts.size(); ++i)
         if (parts[i] == parts[0] || surely_holds(*parts[i], *parts[0]))
             throw std::invalid_argument("Difference: argument " + std::to_string(i) +
@@ -54,10 +51,19 @@ ShapePointer Shape::combine(ShapeKind operation, std::vector<ShapePointer> parts
         if (!parts[i]->is_solid())
             throw std::invalid_argument(name + ": argument " + std::to_string(i) +
                                         " must be a solid, a disk, polygon or mesh is none");
-    require_content(operation, parts);
-    auto* shape = new Shape(operation);
-    shape->parts_ = std::move(parts);
-    return ShapePointer(shape);
+    const std::shared_ptr<Shape> shape(new Shape(operation));
+    if (operation == ShapeKind::csg_intersection) {
+        const Boxd box = overlap(parts);
+        if (box.is_empty())
+            throw std::invalid_argument(name + ": the parts do not overlap, their intersection encloses nothing");
+        shape->own_bounds_ = collapsed(box);
+    }
+    if (operation == ShapeKind::csg_difference) {
+        require_remainder(parts);
+        shape->own_bounds_ = shape_bounds(*parts[0], {});
+    }
+    shape->adopt(name, std::move(parts));
+    return shape;
 }
 
 }  // namespace raybound

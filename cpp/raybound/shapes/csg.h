@@ -106,6 +106,7 @@ class CsgEvaluation {
   public:
     CsgEvaluation(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), spans_(geometry, ray) {
         stack_.reserve(32);
+        open_.reserve(16);
     }
     CsgEvaluation(const CsgEvaluation&) = delete;
     CsgEvaluation& operator=(const CsgEvaluation&) = delete;
@@ -124,32 +125,48 @@ class CsgEvaluation {
     // All of them, on the whole line, once evaluated.
     std::span<const Interval<T>> intervals() const { return stack_; }
 
-    void evaluate(std::uint32_t index) {
-        const CsgNode& node = geometry_.csg_nodes[index];
-        switch (node.kind) {
-            case CsgKind::leaf:
-                return push_leaf(index, node);
-            case CsgKind::csg_union:
-                return unite(node);
-            case CsgKind::csg_intersection:
-                return intersect(node);
-            case CsgKind::csg_difference:
-                return subtract(node);
+    // Each operation once for each child that has been evaluated: on the stack then is what the child has, from
+    // `middle` on, after what those before it have left. What cuts is done when nothing is left.
+    void evaluate(std::uint32_t root) {
+        enter(root);
+        while (!open_.empty()) {
+            Open& at = open_.back();
+            const CsgNode& node = geometry_.csg_nodes[at.node];
+            const bool cuts = node.kind != CsgKind::csg_union;
+            if (cuts && at.next > 1) cut(node.kind, at.begin, at.middle);
+            const bool is_done = cuts && at.next > 0 && stack_.size() == at.begin;
+            if (at.next < node.count && !is_done) {
+                at.middle = stack_.size();
+                enter(geometry_.csg_children[node.first + at.next++]);
+                continue;
+            }
+            if (!cuts) unite(at.begin);
+            open_.pop_back();
         }
     }
 
   private:
+    struct Open {
+        std::uint32_t node, next;  // child
+        std::size_t begin, middle;
+    };
+
+    void enter(std::uint32_t index) {
+        const CsgNode& node = geometry_.csg_nodes[index];
+        if (node.kind == CsgKind::leaf)
+            push_leaf(index, node);
+        else
+            open_.push_back({index, 0, stack_.size(), stack_.size()});
+    }
+
     void push_leaf(std::uint32_t index, const CsgNode& node) {
         spans_.visit(node, [&](const Span<T>& span, const T& in_error, const T& out_error) {
             stack_.push_back(interval_of(span, index, in_error, out_error));
         });
     }
 
-    std::uint32_t child(const CsgNode& node, std::uint32_t i) const { return geometry_.csg_children[node.first + i]; }
-
-    void unite(const CsgNode& node) {
-        const std::size_t begin = stack_.size();
-        for (std::uint32_t i = 0; i < node.count; ++i) evaluate(child(node, i));
+    // What begins at `begin`, merged.
+    void unite(std::size_t begin) {
         const auto first = stack_.begin() + std::ptrdiff_t(begin);
         std::sort(first, stack_.end(), [](const auto& a, const auto& b) { return begins_before(a, b); });
         std::size_t last = begin;
@@ -163,47 +180,42 @@ class CsgEvaluation {
         if (stack_.size() > begin) stack_.resize(last + 1);
     }
 
-    // Pairwise overlaps of two sorted lists.
-    void intersect(const CsgNode& node) {
-        const std::size_t begin = stack_.size();
-        evaluate(child(node, 0));
-        for (std::uint32_t i = 1; i < node.count && stack_.size() > begin; ++i) {
-            const std::size_t middle = stack_.size();
-            evaluate(child(node, i));
-            const std::size_t end = stack_.size();
-            std::size_t a = begin, b = middle;
-            while (a < middle && b < end) {
-                const Interval<T> x = stack_[a], y = stack_[b];
-                const Interval<T> both = overlap(x, y);
-                if (is_thick(both)) stack_.push_back(both);
-                ++(x.out.t < y.out.t ? a : b);
-            }
-            stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
+    // Pairwise overlaps of two sorted lists, one from `begin`, one from `middle`.
+    void intersect(std::size_t begin, std::size_t middle) {
+        const std::size_t end = stack_.size();
+        std::size_t a = begin, b = middle;
+        while (a < middle && b < end) {
+            const Interval<T> x = stack_[a], y = stack_[b];
+            const Interval<T> both = overlap(x, y);
+            if (is_thick(both)) stack_.push_back(both);
+            ++(x.out.t < y.out.t ? a : b);
         }
+        stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
     }
 
-    // The first part's intervals, cut by those of each other part. What is left of one, thinner than its errors, is
-    // nothing: no skin stays where faces coincide.
-    void subtract(const CsgNode& node) {
-        const std::size_t begin = stack_.size();
-        evaluate(child(node, 0));
-        for (std::uint32_t i = 1; i < node.count && stack_.size() > begin; ++i) {
-            const std::size_t middle = stack_.size();
-            evaluate(child(node, i));
-            const std::size_t end = stack_.size();
-            for (std::size_t a = begin; a < middle; ++a) {
-                Interval<T> rest = stack_[a];
-                for (std::size_t b = middle; b < end; ++b) {
-                    const Interval<T> away = stack_[b];
-                    const Interval<T> before{rest.in, away.in}, after{away.out, rest.out};
-                    if (!(away.in.t < rest.out.t) || !(away.out.t > rest.in.t)) continue;
-                    if (is_thick(before)) stack_.push_back(before);
-                    rest = after;
-                }
-                if (is_thick(rest)) stack_.push_back(rest);
+    // What is there from `begin` without what is there from `middle`. What is left of an interval, thinner than its
+    // errors, is nothing: no skin stays where faces coincide.
+    void subtract(std::size_t begin, std::size_t middle) {
+        const std::size_t end = stack_.size();
+        for (std::size_t a = begin; a < middle; ++a) {
+            Interval<T> rest = stack_[a];
+            for (std::size_t b = middle; b < end; ++b) {
+                const Interval<T> away = stack_[b];
+                const Interval<T> before{rest.in, away.in}, after{away.out, rest.out};
+                if (!(away.in.t < rest.out.t) || !(away.out.t > rest.in.t)) continue;
+                if (is_thick(before)) stack_.push_back(before);
+                rest = after;
             }
-            stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
+            if (is_thick(rest)) stack_.push_back(rest);
         }
+        stack_.erase(stack_.begin() + std::ptrdiff_t(begin), stack_.begin() + std::ptrdiff_t(end));
+    }
+
+    void cut(CsgKind operation, std::size_t begin, std::size_t middle) {
+        if (operation == CsgKind::csg_intersection)
+            intersect(begin, middle);
+        else
+            subtract(begin, middle);
     }
 
     const Geometry& geometry_;
@@ -212,6 +224,7 @@ class CsgEvaluation {
     alignas(Interval<T>) std::array<std::byte, 64 * sizeof(Interval<T>)> buffer_;
     std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
     std::pmr::vector<Interval<T>> stack_{&memory_};
+    std::pmr::vector<Open> open_{&memory_};
 };
 
 }  // namespace raybound

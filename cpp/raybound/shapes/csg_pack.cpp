@@ -29,6 +29,10 @@ CsgPack::CsgPack(const Geometry& geometry, const Ray<W>& rays)
 // Every boundary of an expression is one of a leaf: where none of these is ahead, none is.
 CsgPack::FirstBoundary CsgPack::first_boundary(std::uint32_t root, std::uint32_t lanes) {
     FirstBoundary first;
+    if (geometry_.is_high(root)) {
+        ask_one_by_one(root, lanes, first);
+        return first;
+    }
     lanes = meet(root, lanes) & ahead_;
     if (lanes == 0) return first;
     const Part part = evaluate(root, lanes, true);

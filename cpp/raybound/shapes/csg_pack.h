@@ -1,5 +1,6 @@
 // CSG for eight rays: leaves and intervals side by side, by the rules of csg.h. A lane for which a part of the
-// expression has several intervals, where only one is kept, is asked as a ray of its own.
+// expression has several intervals, where only one is kept, is asked as a ray of its own; so are all
+// lanes for an expression that is too high to recurse into.
 #pragma once
 
 #include "raybound/shapes/csg.h"

@@ -190,39 +190,59 @@ CsgKind csg_kind(ShapeKind kind) {
     return kind == ShapeKind::csg_intersection ? CsgKind::csg_intersection : CsgKind::csg_difference;
 }
 
-// `is_complement`: taken away, an odd number of times.
-std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement, std::int32_t& face,
-                      bool is_complement) {
-    if (shape.kind() == ShapeKind::transformed)
-        return add_csg(geometry, *shape.parts()[0], placement * shape.transform(), face, is_complement);
-    CsgNode node;
-    if (shape.parts().empty()) {
-        node.face_offset = face;
-        node.first = add_leaf(geometry, shape, placement);
-        geometry.leaves[node.first].is_complement = is_complement;
-        face += shape.face_count();
-    } else {
-        node.kind = csg_kind(shape.kind());
-        std::vector<std::uint32_t> children;
-        for (const auto& part : shape.parts()) {
-            const bool taken_away = node.kind == CsgKind::csg_difference && !children.empty();
-            children.push_back(add_csg(geometry, *part, placement, face, is_complement != taken_away));
-        }
-        node.first = std::uint32_t(geometry.csg_children.size());
-        node.count = std::uint32_t(children.size());
-        geometry.csg_children.insert(geometry.csg_children.end(), children.begin(), children.end());
-    }
-    geometry.csg_nodes.push_back(node);
-    return std::uint32_t(geometry.csg_nodes.size() - 1);
+// A CSG operation whose parts are being added: their nodes follow those of the operations it is part of.
+struct Open {
+    const Shape* shape;
+    Affine placement;
+    bool is_complement;  // taken away, an odd number of times
+    std::size_t next = 0, first_child = 0;
+
+    bool takes_away_next() const { return shape->kind() == ShapeKind::csg_difference && next > 0; }
+};
+
+// How deep a walk that recurses has to go, as far as a byte can tell.
+std::uint8_t height_above(const Geometry& geometry, std::span<const std::uint32_t> children) {
+    std::uint8_t height = 0;
+    for (const std::uint32_t child : children) height = std::max(height, geometry.csg_nodes[child].height);
+    return height == CsgNode::most_height ? height : std::uint8_t(height + 1);
 }
 
-const Shape& strip_transforms(const Shape& shape, Affine& placement) {
-    const Shape* inner = &shape;
-    while (inner->kind() == ShapeKind::transformed) {
-        placement = placement * inner->transform();
-        inner = inner->parts()[0].get();
+// Adds the nodes of an expression, each after its children; returns the last one, its root.
+std::uint32_t add_csg(Geometry& geometry, const Shape& shape, const Affine& placement) {
+    std::vector<Open> open;
+    std::vector<std::uint32_t> children;
+    std::int32_t face = 0;
+    const auto add_node = [&](const CsgNode& node) {
+        children.push_back(std::uint32_t(geometry.csg_nodes.size()));
+        geometry.csg_nodes.push_back(node);
+    };
+    const auto enter = [&](const Shape& part, Affine map, bool is_complement) {
+        const Shape& inner = strip_transforms(part, map);
+        if (!inner.parts().empty()) {
+            open.push_back({&inner, map, is_complement, 0, children.size()});
+            return;
+        }
+        add_node({CsgKind::leaf, 0, add_leaf(geometry, inner, map), 0, face});
+        geometry.leaves.back().is_complement = is_complement;
+        face += inner.face_count();
+    };
+    enter(shape, placement, false);
+    while (!open.empty()) {
+        Open& at = open.back();
+        if (at.next < at.shape->parts().size()) {
+            const bool is_complement = at.is_complement != at.takes_away_next();
+            enter(*at.shape->parts()[at.next++], at.placement, is_complement);
+            continue;
+        }
+        const std::span<const std::uint32_t> own = std::span(children).subspan(at.first_child);
+        const CsgNode node{csg_kind(at.shape->kind()), height_above(geometry, own),
+                           std::uint32_t(geometry.csg_children.size()), std::uint32_t(own.size()), 0};
+        geometry.csg_children.insert(geometry.csg_children.end(), own.begin(), own.end());
+        children.resize(at.first_child);
+        open.pop_back();
+        add_node(node);
     }
-    return *inner;
+    return children[0];
 }
 
 // The box of what is really there, which differs from the description by the leaves' errors.
@@ -235,22 +255,22 @@ Box primitive_bounds(const Geometry& geometry, const Shape& shape, const Affine&
     return conservative_box({box.lower - margin, box.upper + margin});
 }
 
-LeafFace leaf_of_node(const Geometry& geometry, std::uint32_t node_index, std::int32_t face) {
-    const CsgNode& node = geometry.csg_nodes[node_index];
-    if (node.kind == CsgKind::leaf) return {node.first, node.face_offset};
-    // Faces count one after the other: the last child that begins at the face or before.
-    const auto first_face = [&](std::uint32_t index) {
-        while (geometry.csg_nodes[index].kind != CsgKind::leaf)
-            index = geometry.csg_children[geometry.csg_nodes[index].first];
-        return geometry.csg_nodes[index].face_offset;
+// Faces count one after the other: they are those of the last child that begins at the face or before.
+LeafFace leaf_of_node(const Geometry& geometry, std::uint32_t index, std::int32_t face) {
+    const auto first_face = [&](std::uint32_t at) {
+        while (geometry.csg_nodes[at].kind != CsgKind::leaf) at = geometry.csg_children[geometry.csg_nodes[at].first];
+        return geometry.csg_nodes[at].face_offset;
     };
-    std::uint32_t child = geometry.csg_children[node.first];
-    for (std::uint32_t i = 1; i < node.count; ++i) {
-        const std::uint32_t next = geometry.csg_children[node.first + i];
-        if (first_face(next) > face) break;
-        child = next;
+    for (;;) {
+        const CsgNode& node = geometry.csg_nodes[index];
+        if (node.kind == CsgKind::leaf) return {node.first, node.face_offset};
+        index = geometry.csg_children[node.first];
+        for (std::uint32_t i = 1; i < node.count; ++i) {
+            const std::uint32_t next = geometry.csg_children[node.first + i];
+            if (first_face(next) > face) break;
+            index = next;
+        }
     }
-    return leaf_of_node(geometry, child, face);
 }
 
 }  // namespace
@@ -272,9 +292,7 @@ void replace_primitive(Geometry& geometry, std::uint32_t index, const Shape& sha
     const Shape& inner = strip_transforms(shape, map);
     Primitive& primitive = geometry.primitives[index];
     primitive.is_csg = !inner.parts().empty();
-    std::int32_t face = 0;
-    primitive.root =
-        (primitive.is_csg ? add_csg(geometry, inner, map, face, false) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
+    primitive.root = (primitive.is_csg ? add_csg(geometry, inner, map) : add_leaf(geometry, inner, map)) & 0x7fffffffu;
     primitive.bounds = primitive_bounds(geometry, inner, map, first_leaf);
 }
 

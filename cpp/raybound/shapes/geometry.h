@@ -55,11 +55,22 @@ inline bool is_flat_face(const Leaf& leaf, int face) {
     return face != 0 || leaf.kind == LeafKind::box || leaf.kind == LeafKind::mesh || is_sheet(leaf);
 }
 
+// Does a face's chart go around: u once around an axis, back to where it began, and v from one end to the other?
+inline bool goes_around(const Leaf& leaf, int face) {
+    if (face != 0) return false;
+    return leaf.kind == LeafKind::sphere || leaf.kind == LeafKind::cylinder || leaf.kind == LeafKind::cone ||
+           leaf.kind == LeafKind::quadric;
+}
+
 enum class CsgKind : std::uint8_t { leaf, csg_union, csg_intersection, csg_difference };
 
 // A node of a CSG expression: a leaf (index `first`) or `count` nodes that start at `first` in csg_children.
+// Expressions may be of any height (levels above the leaves): what recurses may do so up to `most_height` less one.
 struct CsgNode {
+    static constexpr std::uint8_t most_height = 255;  // that, or more
+
     CsgKind kind = CsgKind::leaf;
+    std::uint8_t height = 0;
     std::uint32_t first = 0, count = 0;
     std::int32_t face_offset = 0;
 };
@@ -88,6 +99,7 @@ struct Geometry {
     std::span<const Vec3d> polygon_vertices(const PolygonPlane& p) const {
         return {vertices.data() + p.first_vertex, p.vertex_count};
     }
+    bool is_high(std::uint32_t csg_node) const { return csg_nodes[csg_node].height == CsgNode::most_height; }
     std::size_t bytes() const;
 };
 

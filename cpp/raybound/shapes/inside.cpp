@@ -31,17 +31,31 @@ double leaf_depth(const Geometry& geometry, const Leaf& leaf, const Vec3d& p) {
     return least;
 }
 
-double node_depth(const Geometry& geometry, std::uint32_t index, const Vec3d& p) {
-    const CsgNode& node = geometry.csg_nodes[index];
-    if (node.kind == CsgKind::leaf) return leaf_depth(geometry, geometry.leaves[node.first], p);
-    const auto depth = [&](std::uint32_t i) { return node_depth(geometry, geometry.csg_children[node.first + i], p); };
-    double all = depth(0);
-    for (std::uint32_t i = 1; i < node.count; ++i) {
-        if (node.kind == CsgKind::csg_union) all = std::max(all, depth(i));
-        if (node.kind == CsgKind::csg_intersection) all = std::min(all, depth(i));
-        if (node.kind == CsgKind::csg_difference) all = std::min(all, -depth(i));
+// The nodes of an expression, each after its children; the root is the last one.
+std::uint32_t first_node(const Geometry& geometry, std::uint32_t root) {
+    while (geometry.csg_nodes[root].kind != CsgKind::leaf) root = geometry.csg_children[geometry.csg_nodes[root].first];
+    return root;
+}
+
+double csg_depth(const Geometry& geometry, std::uint32_t root, const Vec3d& p) {
+    const std::uint32_t begin = first_node(geometry, root);
+    std::vector<double> depth;
+    for (std::uint32_t index = begin; index <= root; ++index) {
+        const CsgNode& node = geometry.csg_nodes[index];
+        if (node.kind == CsgKind::leaf) {
+            depth.push_back(leaf_depth(geometry, geometry.leaves[node.first], p));
+            continue;
+        }
+        const auto of_child = [&](std::uint32_t i) { return depth[geometry.csg_children[node.first + i] - begin]; };
+        double all = of_child(0);
+        for (std::uint32_t i = 1; i < node.count; ++i) {
+            if (node.kind == CsgKind::csg_union) all = std::max(all, of_child(i));
+            if (node.kind == CsgKind::csg_intersection) all = std::min(all, of_child(i));
+            if (node.kind == CsgKind::csg_difference) all = std::min(all, -of_child(i));
+        }
+        depth.push_back(all);
     }
-    return all;
+    return depth.back();
 }
 
 // By the distance to the nearest face, and the parity of crossings along some line.
@@ -98,39 +112,61 @@ class CsgExit {
     CsgExit(const Geometry& geometry, const Ray<double>& ray, double margin)
         : geometry_(geometry), ray_(ray), margin_(margin) {}
 
-    std::optional<Crossing<double>> leave(std::uint32_t index, bool complement = false) const {
+    std::optional<Crossing<double>> leave(std::uint32_t root) {
+        begin_ = first_node(geometry_, root);
+        complement_.assign(root - begin_ + 1, 0);
+        for (std::uint32_t index = root; index > begin_; --index) mark_children(index);
+        exits_.clear();
+        for (std::uint32_t index = begin_; index <= root; ++index) {
+            const CsgNode& node = geometry_.csg_nodes[index];
+            exits_.push_back(node.kind != CsgKind::leaf      ? leave_node(node, complement_[index - begin_])
+                             : complement_[index - begin_]   ? leave_complement(node)
+                                                             : leave_leaf(node));
+        }
+        return exits_.back();
+    }
+
+  private:
+    using Found = std::optional<Crossing<double>>;
+
+    // Parts are taken away an even or an odd number of times.
+    void mark_children(std::uint32_t index) {
         const CsgNode& node = geometry_.csg_nodes[index];
-        if (node.kind == CsgKind::leaf) return complement ? leave_complement(node) : leave_leaf(node);
-        // (The complement of a union is an intersection of complements, and so on.)
-        const bool is_union = (node.kind == CsgKind::csg_union) != complement;
-        const bool difference = node.kind == CsgKind::csg_difference;
-        const bool any = difference ? complement : is_union;
-        std::optional<Crossing<double>> best;
+        if (node.kind == CsgKind::leaf) return;
         for (std::uint32_t i = 0; i < node.count; ++i) {
-            const bool child_complement = complement != (difference && i > 0);
-            const auto exit = leave(geometry_.csg_children[node.first + i], child_complement);
+            const bool taken_away = node.kind == CsgKind::csg_difference && i > 0;
+            complement_[geometry_.csg_children[node.first + i] - begin_] =
+                (complement_[index - begin_] != 0) != taken_away;
+        }
+    }
+
+    // A union is left with the last part that holds the ray, an intersection with the first. (The complement of a union
+    // is an intersection of complements; a difference is an intersection with complements.)
+    Found leave_node(const CsgNode& node, bool complement) const {
+        const bool any = (node.kind == CsgKind::csg_union) != complement;
+        Found best;
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            const Found& exit = exits_[geometry_.csg_children[node.first + i] - begin_];
             if (!exit && !any) return {};
-            if (!exit) continue;
-            if (!best || (any ? exit->t > best->t : exit->t < best->t)) best = exit;
+            if (exit && (!best || (any ? exit->t > best->t : exit->t < best->t))) best = exit;
         }
         return best;
     }
 
-  private:
-    std::optional<Crossing<double>> leave_leaf(const CsgNode& node) const {
+    Found leave_leaf(const CsgNode& node) const {
         if (leaf_depth(geometry_, geometry_.leaves[node.first], ray_.origin) < -margin_) return {};
         return exit_crossing(geometry_, node.first, node.face_offset, ray_);
     }
 
-    // Out of what is outside of a leaf: into the leaf.
-    std::optional<Crossing<double>> leave_complement(const CsgNode& node) const {
+    // Out of what is outside of a leaf: into the leaf, if the ray comes to it.
+    Found leave_complement(const CsgNode& node) const {
         const Leaf& leaf = geometry_.leaves[node.first];
         if (leaf_depth(geometry_, leaf, ray_.origin) > margin_) return {};
-        Crossing<double> never{infinity<double>, node.first, 0, node.face_offset, true, false};
+        Crossing<double> exit{infinity<double>, node.first, 0, node.face_offset, true, false};
         const auto enter = [&](const Span<double>& span) {
             const bool still_ahead = span.t_in > 0 || -span.t_in < span.t_out;
-            if (span.hit && span.t_out > 0 && still_ahead && !(never.t < infinity<double>))
-                never.t = std::max(0.0, span.t_in), never.face = span.face_in;
+            if (span.hit && span.t_out > 0 && still_ahead && !(exit.t < infinity<double>))
+                exit.t = std::max(0.0, span.t_in), exit.face = span.face_in;
         };
         if (leaf.kind == LeafKind::quadric) {
             const Spans<double> spans = quadric_leaf_spans(geometry_, leaf, ray_);
@@ -138,12 +174,15 @@ class CsgExit {
         } else {
             enter(leaf_span(geometry_, leaf, ray_));
         }
-        return never;
+        return exit;
     }
 
     const Geometry& geometry_;
     const Ray<double>& ray_;
     double margin_;
+    std::uint32_t begin_ = 0;
+    std::vector<char> complement_;
+    std::vector<Found> exits_;
 };
 
 Crossing<double> leave_csg(const Geometry& geometry, const Primitive& primitive, const Ray<double>& ray,
@@ -255,7 +294,7 @@ Crossing<Wide<T>> crossing_from_outside(const Geometry& geometry, const Primitiv
 }
 
 double depth_of(const Geometry& geometry, const Primitive& primitive, const Vec3d& p) {
-    if (primitive.is_csg) return node_depth(geometry, primitive.root, p);
+    if (primitive.is_csg) return csg_depth(geometry, primitive.root, p);
     const Leaf& leaf = geometry.leaves[primitive.root];
     if (leaf.kind != LeafKind::mesh) return leaf_depth(geometry, leaf, p);
     return mesh_distance(geometry, leaf, p) * (mesh_contains(geometry, primitive, p) ? 1 : -1);

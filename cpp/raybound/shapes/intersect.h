@@ -68,8 +68,9 @@ bool coincide(const Geometry& geometry, const Crossing<double>& a, const Crossin
 
 // A hit with its error bounds. `entering`: the ray comes from outside. For solids that is a matter of which crossing it
 // is, not of the normal's sign, which rounding may turn at a silhouette. The box point +- point_error holds a point of
-// the surface; t +- t_error holds the ray's crossing of it (derivation D3). `normal` is the outward unit normal, along
-// which origins are moved; `shading` is the same, or interpolated between the vertices of a mesh, on the same side.
+// the surface, not always the ray's own crossing of it; t +- t_error holds that (derivation D3). `normal` is the
+// outward unit normal, along which origins are moved; `shading` is the same, or interpolated between the vertices of a
+// mesh, on the same side.
 template <class T>
 struct SurfacePoint {
     T t, t_error;

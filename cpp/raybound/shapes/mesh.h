@@ -19,9 +19,11 @@ struct Face {
 class MeshData {
   public:
     // `normals` and `uvs` are for each vertex, or empty. Throws std::invalid_argument, naming the face or vertex: for
-    // an empty mesh, indices out of range, faces without area, edges of more than two faces, zero normals.
+    // an empty mesh, indices out of range, faces without area, edges of more than two faces, zero normals. `watch` may
+    // throw to stop it.
     static std::shared_ptr<const MeshData> make(std::vector<Vec3f> vertices, std::vector<Face> faces,
-                                                std::vector<Vec3f> normals, std::vector<UV<float>> uvs);
+                                                std::vector<Vec3f> normals, std::vector<UV<float>> uvs,
+                                                const Watch& watch = {});
 
     std::span<const Vec3f> vertices() const { return vertices_; }
     std::span<const Face> faces() const { return faces_; }
@@ -46,8 +48,8 @@ class MeshData {
   private:
     MeshData() = default;
     const Vec3f& vertex(std::int32_t i) const { return vertices_[std::size_t(i)]; }
-    void check();
-    void build();
+    void check(Lookout& lookout);
+    void build(Lookout& lookout);
 
     std::vector<Vec3f> vertices_, normals_;
     std::vector<Face> faces_;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 
+#include "raybound/geometry/sole_owner.h"
 #include "raybound/shapes/mesh.h"
 #include "raybound/shapes/polygon.h"
 #include "raybound/shapes/unit_quadric.h"
@@ -80,6 +83,20 @@ void require_quadric(const std::vector<float>& c) {
         refuse(head + "have a part of first or second order, got " + format_all(c));
 }
 
+int face_count_of(ShapeKind kind) {
+    switch (kind) {
+        case ShapeKind::box:
+            return 6;
+        case ShapeKind::quadric:
+            return 7;
+        case ShapeKind::cylinder:
+        case ShapeKind::cone:
+            return 3;
+        default:
+            return 1;
+    }
+}
+
 }  // namespace
 
 std::string format(double value) {
@@ -99,6 +116,37 @@ void require_finite(const char* object, const char* argument, const Vec3f& value
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(value[i]) <= largest_coordinate))
             refuse(std::string(object) + ": " + argument + " must be finite and at most 2**60, got " + format(value));
+}
+
+Shape::Shape(ShapeKind kind)
+    : kind_(kind),
+      is_solid_(kind != ShapeKind::disk && kind != ShapeKind::polygon && kind != ShapeKind::mesh),
+      face_count_(face_count_of(kind)) {}
+
+// Parts that nobody else holds are taken apart here, one after the other: their own destructors would nest.
+Shape::~Shape() {
+    std::vector<ShapePointer> rest = std::move(parts_);
+    while (!rest.empty()) {
+        const ShapePointer part = std::move(rest.back());
+        rest.pop_back();
+        if (part->parts_.empty() || !is_sole_owner(part)) continue;
+        auto& inner = const_cast<Shape&>(*part).parts_;
+        std::ranges::move(inner, std::back_inserter(rest));
+        inner.clear();
+    }
+}
+
+void Shape::adopt(const std::string& owner, std::vector<ShapePointer> parts) {
+    std::int64_t faces = 0, primitives = 0;
+    for (const auto& part : parts) {
+        faces += part->face_count();
+        primitives += part->primitive_count();
+    }
+    if (std::max(faces, primitives) > std::numeric_limits<std::int32_t>::max())
+        refuse(owner + ": parts must have fewer than 2**31 faces together, got " + std::to_string(faces));
+    parts_ = std::move(parts);
+    face_count_ = int(faces);
+    primitive_count_ = int(primitives);
 }
 
 ShapePointer Shape::sphere(const Vec3f& center, float radius) {
@@ -182,6 +230,7 @@ ShapePointer Shape::polygon(std::vector<Vec3f> vertices) {
 ShapePointer Shape::triangle_mesh(MeshPointer mesh) {
     auto* shape = new Shape(ShapeKind::mesh);
     shape->mesh_ = std::move(mesh);
+    shape->face_count_ = int(shape->mesh_->faces().size());
     return ShapePointer(shape);
 }
 
@@ -200,45 +249,20 @@ ShapePointer Shape::quadric(std::vector<float> coefficients, const Vec3f& lower,
 }
 
 ShapePointer Shape::transformed(ShapePointer inner, const Affine& transform) {
-    auto* shape = new Shape(ShapeKind::transformed);
+    const std::shared_ptr<Shape> shape(new Shape(ShapeKind::transformed));
     shape->transform_ = transform;
-    shape->parts_.push_back(std::move(inner));
-    return ShapePointer(shape);
+    shape->is_solid_ = inner->is_solid();
+    shape->adopt("Shape.transformed", {std::move(inner)});
+    return shape;
 }
 
-bool Shape::is_solid() const {
-    if (kind_ == ShapeKind::transformed) return parts_[0]->is_solid();
-    return kind_ != ShapeKind::disk && kind_ != ShapeKind::polygon && kind_ != ShapeKind::mesh;
-}
-
-int Shape::face_count() const {
-    switch (kind_) {
-        case ShapeKind::box:
-            return 6;
-        case ShapeKind::quadric:
-            return 7;
-        case ShapeKind::cylinder:
-        case ShapeKind::cone:
-            return 3;
-        case ShapeKind::sphere:
-        case ShapeKind::disk:
-        case ShapeKind::polygon:
-            return 1;
-        case ShapeKind::mesh:
-            return int(mesh_->faces().size());
-        default:
-            break;
+const Shape& strip_transforms(const Shape& shape, Affine& placement) {
+    const Shape* inner = &shape;
+    while (inner->kind() == ShapeKind::transformed) {
+        placement = placement * inner->transform();
+        inner = inner->parts()[0].get();
     }
-    int count = 0;
-    for (const auto& part : parts_) count += part->face_count();
-    return count;
-}
-
-int Shape::primitive_count() const {
-    if (parts_.empty()) return 1;
-    int count = 0;
-    for (const auto& part : parts_) count += part->primitive_count();
-    return count;
+    return *inner;
 }
 
 Affine checked_transform(const std::string& owner, const Affine& transform) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,14 @@ class MeshData;
 using MeshPointer = std::shared_ptr<const MeshData>;
 using ShapePointer = std::shared_ptr<const Shape>;
 
-// One node of a description: a primitive, a CSG operation, or a transform of another shape. Inputs are floats.
+// One node of a description: a primitive, a CSG operation, or a transform of another shape. Inputs are floats. Shapes
+// may be nested to any depth: what walks them does not recurse.
 class Shape {
   public:
+    Shape(const Shape&) = delete;
+    Shape& operator=(const Shape&) = delete;
+    ~Shape();
+
     static ShapePointer sphere(const Vec3f& center, float radius);
     static ShapePointer box(const Vec3f& lower, const Vec3f& upper);
     static ShapePointer cylinder(const Vec3f& base, const Vec3f& top, float radius);
@@ -55,12 +61,15 @@ class Shape {
     const std::vector<ShapePointer>& parts() const { return parts_; }
     const Affine& transform() const { return transform_; }
 
-    bool is_solid() const;   // encloses a volume: what CSG can combine
-    int face_count() const;  // faces of the parts count one after the other
-    int primitive_count() const;
+    bool is_solid() const { return is_solid_; }     // encloses a volume: what CSG can combine
+    int face_count() const { return face_count_; }  // faces of the parts count one after the other
+    int primitive_count() const { return primitive_count_; }
+    // shape_bounds where it is, for intersections: asked again at each step of a loop that cuts.
+    const std::optional<Boxd>& own_bounds() const { return own_bounds_; }
 
   private:
-    explicit Shape(ShapeKind kind) : kind_(kind) {}
+    explicit Shape(ShapeKind kind);
+    void adopt(const std::string& owner, std::vector<ShapePointer> parts);
 
     ShapeKind kind_;
     Vec3f first_, second_;
@@ -70,10 +79,19 @@ class Shape {
     std::vector<float> coefficients_;
     std::vector<ShapePointer> parts_;
     Affine transform_;
+    bool is_solid_;
+    int face_count_ = 1, primitive_count_ = 1;
+    std::optional<Boxd> own_bounds_;
 };
+
+// What a shape's transforms are about, with them multiplied to its placement from the right.
+const Shape& strip_transforms(const Shape& shape, Affine& placement);
 
 // Bounds of the shape under a map, in double: exact up to double rounding.
 Boxd shape_bounds(const Shape& shape, const Affine& placement);
+
+// Parts that overlap in one position of the axes and not in another enclose nothing: bounds of no extent then.
+Boxd collapsed(const Boxd& box);
 
 // The same as a box of floats that surely holds the shape: double rounding is covered by 2^-40 of the size and 2^-50
 // of the coordinates.

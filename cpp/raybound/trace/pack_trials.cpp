@@ -59,7 +59,8 @@ PackHit single_hit(const Snapshot& scene, const WideRay<float>& ray) {
     const auto at = surface_point<float>(geometry, crossing, ray.wide, everything);
     fill(record, at);
     const Material& material = material_of(scene, nearest.primitive[0]);
-    if (material.texture) store(record.diffuse, material.texture->lookup(at.uv));
+    const bool around = goes_around(geometry.leaves[crossing.leaf], crossing.face);
+    if (material.texture) store(record.diffuse, material.texture->lookup(at.uv, around));
     return record;
 }
 
@@ -78,7 +79,8 @@ void pack_points(const Snapshot& scene, const RayPack& rays, const NearestPack& 
     const Vec3<FloatPack> outer = offset_origin(at.point, at.point_error, at.normal);
     const Vec3<FloatPack> inner = offset_origin(at.point, at.point_error, -at.normal);
     const Material& material = material_of(scene, nearest.primitive[first]);
-    const Vec3<FloatPack> diffuse = material.texture ? material.texture->lookup(at.uv) : Vec3<FloatPack>{};
+    const bool around = goes_around(scene.geometry().leaves[crossings.leaf], crossings.face);
+    const Vec3<FloatPack> diffuse = material.texture ? material.texture->lookup(at.uv, around) : Vec3<FloatPack>{};
     for_each_lane(same, [&](int lane) {
         PackHit& record = records[lane];
         SurfacePoint<float> one{};

@@ -65,7 +65,8 @@ Vec3<T> Tracer<T>::shade(const WideRay<T>& wide, const Nearest<T>& nearest, int 
     const SurfacePoint<T> hit =
         surface_point<T>(geometry, nearest.crossing, wide.wide, {.t_error = false, .uv = material.texture != nullptr});
     const Vec3<T> side = hit.entering ? hit.normal : -hit.normal;
-    const Vec3<T> diffuse = material.texture ? material.texture->lookup(hit.uv) : Vec3<T>(material.diffuse);
+    const bool around = goes_around(geometry.leaves[nearest.crossing.leaf], nearest.crossing.face);
+    const Vec3<T> diffuse = material.texture ? material.texture->lookup(hit.uv, around) : Vec3<T>(material.diffuse);
     const Shadable at{hit,
                       material,
                       side,
