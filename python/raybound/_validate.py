@@ -178,7 +178,7 @@ def vectors(who: str, name: str, value: object) -> FloatArray:
         return np.empty((0, 3), np.float32)
     given = numeric(who, name, value, expected)
     if given.ndim == 0 or given.shape[-1] != 3:
-        raise ValueError(f"{who}: {name} must be {expected}, got {describe(value)}")
+        raise ValueError(f"{who}: {name} must be {expected}, got shape {given.shape}")
     return _round(who, name, given, copy=False)
 
 
@@ -189,7 +189,7 @@ def points(who: str, name: str, value: object) -> DoubleArray:
         return np.empty((0, 3))
     given = numeric(who, name, value, expected).astype(np.float64)
     if given.ndim == 0 or given.shape[-1] != 3:
-        raise ValueError(f"{who}: {name} must be {expected}, got {describe(value)}")
+        raise ValueError(f"{who}: {name} must be {expected}, got shape {given.shape}")
     good = np.isfinite(given)
     if not good.all():
         raise ValueError(f"{who}: {name} must be finite, got {_culprit(given, good)}")
@@ -249,16 +249,6 @@ def _records(who: str, value: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
             f"{', '.join(value.dtype.names or ())}"
         )
     return value
-
-
-def ray_rows(who: str, origins: object, directions: object) -> tuple[FloatArray, FloatArray]:
-    """Origins and directions (n, 3) of one length, no direction zero."""
-    first = array(who, "origins", origins, shape=(None, 3), copy=False)
-    second = array(who, "directions", directions, shape=(None, 3), copy=False)
-    if len(first) != len(second):
-        raise ValueError(f"{who}: origins and directions must have one length, got {len(first)} and {len(second)}")
-    rays(who, first, second)
-    return first, second
 
 
 def integer(who: str, name: str, value: object, *, lowest: int, highest: int) -> int:

@@ -99,7 +99,9 @@ def intersect(
     point +- point_error holds a point of the surface, not always the one where the ray meets it.
     """
     checked = _validate.instance("intersect", "shape", shape, Shape, "a Shape")
-    rays = _validate.ray_rows("intersect", origins, directions)
+    rays = _validate.rays("intersect", origins, directions)
+    if rays.origins.dtype.names:
+        raise ValueError("intersect: origins must be points, got records of hits (Scene.intersect takes them)")
     _validate.choice("intersect", "precision", precision, PRECISIONS)
     _validate.choice("intersect", "offsets", offsets, OFFSETS)
-    return _core.intersect_shape(checked._native, *rays, precision, offsets)
+    return _core.intersect_shape(checked._native, rays.origins, rays.ends, precision, offsets).reshape(rays.shape)

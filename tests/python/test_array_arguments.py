@@ -160,8 +160,9 @@ def test_results_are_the_callers_to_keep() -> None:
 @pytest.mark.parametrize(
     ("origins", "directions", "words"),
     [
-        ((0, 0, 0), (0, 0, 1), r"origins must be an array of numbers with shape \(n, 3\), got shape \(3,\)"),
-        ([(0, 0, 0)], [(0, 0, 1)] * 2, "origins and directions must have one length, got 1 and 2"),
+        ((0, 0), (0, 0, 1), r"origins must be an array of numbers with shape \(..., 3\), got shape \(2,\)"),
+        (0, (0, 0, 1), r"origins must be an array of numbers with shape \(..., 3\), got shape \(\)"),
+        ([(0, 0, 0)] * 3, [(0, 0, 1)] * 2, r"origins and directions must broadcast, got shapes \(3, 3\) and \(2, 3\)"),
         ([(0, 0, 0)], [(0, 0, 0)], r"directions must be non-zero, got \(0.0, 0.0, 0.0\) at index 0"),
         ([(0, 0, np.nan)], [(0, 0, 1)], r"origins must be finite, got nan at index \(0, 2\)"),
         ([(0, 0, 0)], [(0, 0, 1e39)], r"directions must fit in float32 .* got 1e\+39 at index \(0, 2\)"),

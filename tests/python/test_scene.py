@@ -221,7 +221,8 @@ def test_intersections_and_occlusions_of_a_known_scene() -> None:
     assert (np.abs(found["t"][[0, 2]] - [2, 1]) <= found["t_error"][[0, 2]]).all()
     assert scene.occluded([(0, 0, 0)] * 3, [(0, 0, 9), (0, 0, 3), (9, 0, 0)]).tolist() == [True, False, False]
     assert set(found.dtype.names or ()) == {
-        *("hit", "t", "t_error", "point", "point_error", "normal", "uv", "object_id", "face_id")
+        *("hit", "t", "t_error", "point", "point_error", "normal", "uv", "object_id", "face_id", "entering"),
+        *("within_id", "touching", "direction", "seal"),
     }
 
 

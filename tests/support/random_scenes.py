@@ -186,6 +186,10 @@ def light(rng: Rng) -> rb.DirectionalLight | rb.PointLight | rb.SpotLight:
 MAKERS = (sphere, box, cylinder, cone, disk, polygon, quadric, csg)
 
 
+def has_close_ones(seed: int) -> bool:
+    return seed % 3 == 2
+
+
 def random_scene(seed: int, objects: int = 24, pixels: int = 48) -> rb.Scene:
     """A scene with its camera: each kind of shape at least once, 1 to 4 lights, a floor every other time.
 
@@ -204,6 +208,6 @@ def random_scene(seed: int, objects: int = 24, pixels: int = 48) -> rb.Scene:
     eye[2] = abs(eye[2])  # above the floor
     eye = tuple((7.5 * eye / np.linalg.norm(eye)).tolist())
     scene.camera = rb.Camera(eye, point(rng, 1.0), fov=float(rng.uniform(35, 70)), width=pixels, height=pixels * 3 // 4)
-    if seed % 3 == 2:
+    if has_close_ones(seed):
         add_close_ones(scene, seed)
     return scene
