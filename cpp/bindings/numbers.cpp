@@ -53,6 +53,10 @@ void register_numbers(py::module_& m) {
         [](const py::array& a) { return map_float_or_double(a, [](auto x) { return next_float_down(x); }); },
         "array"_a);
     m.def(
+        "epsilon",
+        [](const Floats& x, float scale) { return map<float>(x, [scale](float v) { return epsilon(v, scale); }); },
+        "x"_a, "scale"_a);
+    m.def(
         "gamma", [](int n, bool wide) { return wide ? gamma<double>(n) : double(gamma<float>(n)); }, "n"_a, "double"_a);
     m.def("spawn_origin", &spawn_origins, "p"_a, "p_error"_a, "n"_a, "w"_a);
     m.def("elementary", &elementary_values, "name"_a, "x"_a, "y"_a = py::none());

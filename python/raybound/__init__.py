@@ -18,7 +18,7 @@ from . import _levels  # noqa: F401  isort: skip  # it makes `_core` the best bu
 from . import _core
 from .camera import Camera
 from .enums import Path, Reason
-from .floats import gamma, intersect, next_float_down, next_float_up, spawn_origin
+from .floats import epsilon, gamma, intersect, next_float_down, next_float_up, spawn_origin
 from .frame import Frame
 from .handles import LightHandle, Object
 from .lights import DirectionalLight, PointLight, SpotLight
@@ -99,6 +99,7 @@ __all__ = [
     "asin",
     "atan",
     "cos",
+    "epsilon",
     "exp",
     "fma",
     "gamma",

@@ -299,7 +299,7 @@ def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert set(result["kinds"]) == set(case["kinds"]) == KINDS
     for where in (result["totals"], case["totals"], *result["kinds"].values()):
         for precision in ("float32", "float64"):
-            assert list(where[precision]) == ["bounded", "epsilon", "scaled-epsilon"]
+            assert list(where[precision]) == ["bounded", "epsilon", "scaled-epsilon", "whole-epsilon"]
             for summary in where[precision].values():
                 assert set(summary) == {*COUNTS, *SAMPLES, "failures"}
             assert not any(where[precision]["bounded"][name] for name in NEVER)

@@ -1,4 +1,4 @@
-// Neighbouring floating-point numbers and the error factor gamma (seeds/000, 3.9.1).
+// Neighbouring floating-point numbers and the error factor gamma (seeds/000, 3.9.1), and a scaled epsilon (seeds/004).
 #pragma once
 
 #include <bit>
@@ -25,6 +25,15 @@ constexpr T next_float_up(T x) {
 template <std::floating_point T>
 constexpr T next_float_down(T x) {
     return -next_float_up(-x);
+}
+
+// Epsilon(x, scale) of seeds/004: |x| times `scale` times the distance from 1 to the next number. For scale > 1,
+// x + epsilon > x and x - epsilon < x for every normal x: the product is at least the distance from x to its
+// neighbours, a number, so rounding keeps it. Not for zero, whose epsilon is 0, nor for float's subnormal x with |x|
+// scale <= 2^-127, whose epsilon is rounded to 0.
+template <std::floating_point T>
+inline T epsilon(T x, T scale) {
+    return std::abs(x) * (std::numeric_limits<T>::epsilon() * scale);
 }
 
 // gamma_n = n u / (1 - n u): n roundings in a row multiply a result by a factor within 1 +- gamma_n

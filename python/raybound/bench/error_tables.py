@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..floats import OFFSETS, PRECISIONS
-from .error_speed import of_way
+from .error_speed import YARDSTICKS, key, of_way
 from .tables import Table
 
 WORST = 8  # cases that the README shows
@@ -91,7 +91,7 @@ def _cost(speed: dict[str, Any], offsets: str, precision: str) -> list[str]:
 
 def _speeds(result: dict[str, Any]) -> Table:
     """All ways that were timed."""
-    over = ("epsilon float32", "scaled-epsilon float32", "epsilon float32 skips", "scaled-epsilon float32 skips")
+    over = [key(way) for way in YARDSTICKS]
     rows = [
         [
             f"{way['offsets']}, {way['precision']}{', skips' if way['skips'] else ''}",
