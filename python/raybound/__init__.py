@@ -18,7 +18,16 @@ from . import _levels  # noqa: F401  isort: skip  # it makes `_core` the best bu
 from . import _core
 from .camera import Camera
 from .enums import Path, Reason
-from .floats import epsilon, gamma, intersect, next_float_down, next_float_up, spawn_origin
+from .floats import (
+    epsilon,
+    float_bits,
+    float_from_bits,
+    gamma,
+    intersect,
+    next_float_down,
+    next_float_up,
+    spawn_origin,
+)
 from .frame import Frame
 from .handles import LightHandle, Object
 from .lights import DirectionalLight, PointLight, SpotLight
@@ -101,6 +110,8 @@ __all__ = [
     "cos",
     "epsilon",
     "exp",
+    "float_bits",
+    "float_from_bits",
     "fma",
     "gamma",
     "intersect",

@@ -13,6 +13,10 @@ from .shapes import Shape
 
 PRECISIONS = ("float32", "float64")
 OFFSETS = ("bounded", "epsilon", "scaled-epsilon", "whole-epsilon")
+_FLOAT_OF: dict[np.dtype[Any], np.dtype[Any]] = {
+    np.dtype(np.uint32): np.dtype(np.float32),
+    np.dtype(np.uint64): np.dtype(np.float64),
+}
 
 
 def next_float_up(x: npt.ArrayLike) -> Any:
@@ -56,6 +60,41 @@ def epsilon(x: npt.ArrayLike, scale: float) -> Any:
     if factor <= 1:
         raise ValueError(f"epsilon: scale must be > 1, got {_validate.describe(scale)}")
     return _core.epsilon(np.atleast_1d(numbers), factor).reshape(given.shape)[()]
+
+
+def float_bits(x: npt.ArrayLike) -> Any:
+    """The bits of floats as unsigned integers (FloatToBits, Physically Based Rendering 3.9.1).
+
+    Scalars or arrays of any shape: float32 (and float16, as float32) gives uint32, everything else, as float64, uint64.
+    NaNs keep their bits. TypeError for other dtypes than floats and integers.
+    """
+    given = _validate.numeric("float_bits", "x", x, "a number or an array of numbers")
+    kind = np.float32 if given.dtype in (np.float16, np.float32) else np.float64
+    return _core.float_bits(np.array(given, kind, order="C", ndmin=1)).reshape(given.shape)[()]
+
+
+def float_from_bits(bits: npt.ArrayLike, dtype: npt.DTypeLike | None = None) -> Any:
+    """The floats that have these bits (BitsToFloat, Physically Based Rendering 3.9.1); `float_bits` undoes it.
+
+    `bits`: integers >= 0 of any shape. `dtype`: float32 or float64, of the result; None takes float32 for uint32 and
+    float64 for uint64. ValueError for integers that do not fit in 32 or 64 bits, TypeError for other dtypes than
+    integers, or if `dtype` is needed.
+    """
+    given = _validate.numeric("float_from_bits", "bits", bits, "an integer or an array of integers")
+    if given.dtype.kind not in "iu":
+        raise TypeError(f"float_from_bits: bits must be an integer or an array of integers, got dtype {given.dtype}")
+    kind = _FLOAT_OF.get(given.dtype) if dtype is None else np.dtype(dtype)
+    if kind is None or kind not in _FLOAT_OF.values():
+        raise TypeError(
+            "float_from_bits: dtype must be float32 or float64 (or None, for bits of dtype uint32 or uint64), got "
+            f"{dtype} for bits of dtype {given.dtype}"
+        )
+    word = np.dtype(f"uint{8 * kind.itemsize}")
+    good = (given >= 0) & (given <= np.iinfo(word).max)
+    if not good.all():
+        raise ValueError(f"float_from_bits: bits must fit in {word}, got {_validate._culprit(given, good)}")
+    words = np.array(given, word, order="C", ndmin=1)
+    return _core.float_from_bits(words, kind == np.float64).reshape(given.shape)[()]
 
 
 def gamma(n: npt.ArrayLike, dtype: npt.DTypeLike = np.float32) -> Any:

@@ -13,13 +13,23 @@ namespace raybound {
 template <class T>
 using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
 
+// The bits of a number as an unsigned integer of its size, and the number of bits: FloatToBits and BitsToFloat.
+template <std::floating_point T>
+constexpr Bits<T> float_bits(T x) {
+    return std::bit_cast<Bits<T>>(x);
+}
+template <std::floating_point T>
+constexpr T float_from_bits(Bits<T> bits) {
+    return std::bit_cast<T>(bits);
+}
+
 // The least number greater than x; +infinity and NaN stay as they are; both zeros go to the least subnormal.
 template <std::floating_point T>
 constexpr T next_float_up(T x) {
     if (!(x < std::numeric_limits<T>::infinity())) return x;
     if (x == 0) return std::numeric_limits<T>::denorm_min();
-    const auto bits = std::bit_cast<Bits<T>>(x);
-    return std::bit_cast<T>(x > 0 ? bits + 1 : bits - 1);
+    const Bits<T> bits = float_bits(x);
+    return float_from_bits<T>(x > 0 ? bits + 1 : bits - 1);
 }
 
 template <std::floating_point T>
