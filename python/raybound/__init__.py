@@ -17,7 +17,7 @@ import logging as _logging
 from . import _levels  # noqa: F401  isort: skip  # it makes `_core` the best build for this CPU
 from . import _core
 from .camera import Camera
-from .enums import Path, Reason
+from .enums import Path, Reason, Verdict
 from .floats import (
     epsilon,
     float_bits,
@@ -50,6 +50,7 @@ from .numbers import (
     maximum,
     minimum,
     power,
+    quadratic,
     reciprocal,
     rsqrt,
     sin,
@@ -102,6 +103,7 @@ __all__ = [
     "TraceResult",
     "Transform",
     "Union",
+    "Verdict",
     "__version__",
     "abs",
     "acos",
@@ -124,6 +126,7 @@ __all__ = [
     "next_float_up",
     "plot",
     "power",
+    "quadratic",
     "reciprocal",
     "render",
     "report",

@@ -1,4 +1,4 @@
-"""How a pixel was made, and why it was traced. The numbers are those in `frame.path` and `frame.reason`."""
+"""How a pixel was made, why it was traced, and what is certain: the numbers that arrays of these hold."""
 
 from __future__ import annotations
 
@@ -31,3 +31,11 @@ class Reason(IntEnum):
     ERROR_BOUND = 8
     COST = 9
     UNSUPPORTED = 10
+
+
+class Verdict(IntEnum):
+    """What is certain of a statement about numbers with errors. UNKNOWN is never to be read as NO."""
+
+    NO = 0  # whatever the exact numbers are
+    YES = 1  # whatever they are
+    UNKNOWN = 2

@@ -13,9 +13,9 @@ import raybound as rb
 NAMES = """
     Sphere Box Cylinder Cone Disk Polygon Quadric Mesh Union Intersection Shape Transform Material Texture
     DirectionalLight PointLight SpotLight Scene Object LightHandle load_scene load_mesh Camera Renderer Tolerance render
-    Frame Path Reason next_float_up next_float_down gamma epsilon float_bits float_from_bits spawn_origin
+    Frame Path Reason Verdict next_float_up next_float_down gamma epsilon float_bits float_from_bits spawn_origin
     intersect testing report plot scenes TraceResult Interval RunningError LinearInterval TaylorModel abs acos asin atan
-    cos exp fma log maximum minimum power reciprocal rsqrt sin sqrt square tan ward_lobe __version__
+    cos exp fma log maximum minimum power quadratic reciprocal rsqrt sin sqrt square tan ward_lobe __version__
 """.split()  # noqa: SIM905  a page of names reads better than a list of strings
 
 
