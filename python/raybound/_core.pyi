@@ -67,6 +67,9 @@ class _Bounces(TypedDict):
     rays: int
     hits: int
     blocked: int
+    spawned: int
+    nodes: int
+    primitives: int
     radiance: float
     seconds: float
 
@@ -336,7 +339,14 @@ def trace(
 def closest_hits(snapshot: Snapshot, origins: _Float, directions: _Float, *, threads: int) -> _ClosestHits: ...
 def primary_hits(snapshot: Snapshot, camera: Camera, *, threads: int) -> tuple[int, float]: ...
 def trace_bounces(
-    snapshot: Snapshot, origins: _Double, directions: _Double, *, precision: str, offsets: str, skips: bool
+    snapshot: Snapshot,
+    origins: _Double,
+    directions: _Double,
+    *,
+    precision: str,
+    offsets: str,
+    skips: bool,
+    count: bool = ...,
 ) -> _Bounces: ...
 def bundle_hits(snapshot: Snapshot, patch: _Double, target: _Float, *, directional: bool) -> _BundleHits: ...
 def explain(snapshot: Snapshot, camera: Camera, x: int, y: int, max_depth: int) -> dict[str, Any]: ...

@@ -31,12 +31,15 @@ inline Vec3<T> epsilon_origin(const Vec3<T>& p, const Vec3<T>& side, Offsets off
 // point there, the origin that the policy spawns, from it a shadow ray to each light that the surface faces, the light
 // that comes from there, and, once, the mirrored ray. The epsilon policies compute the plain point in T and no bound.
 // `skips`: rays do not ask what they have left for good, as in the tracer, which knows the side of its origins.
+// `counts`: what the spawned rays visit is counted, which takes time.
 struct Leaving {
     Offsets offsets = Offsets::bounded;
     bool skips = true;
+    bool counts = false;
 };
 struct Bounces {
-    std::uint64_t rays = 0, hits = 0, blocked = 0;
+    std::uint64_t rays = 0, hits = 0, blocked = 0, spawned = 0;
+    Visits visits;        // of spawned rays
     double radiance = 0;  // the sum over rays and channels
     double seconds = 0;   // of this process: what others do meanwhile does not count
 };

@@ -4,6 +4,12 @@
 #include "raybound/shapes/hit_point.h"
 #include "raybound/shapes/mesh_hit.h"
 
+#ifdef RAYBOUND_COUNTED  // by intersect_counted.cpp
+#define RAYBOUND_OBSERVER Counted
+#else
+#define RAYBOUND_OBSERVER Unseen
+#endif
+
 namespace raybound {
 
 namespace {
@@ -42,25 +48,26 @@ Crossing<W> cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<W>
 
 }  // namespace
 
-template <class T>
+template <class T, class Observer>
 Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                 const Asking<T>& asking) {
+                                 const Asking<T>& asking, Observer observer) {
     if (primitive.is_csg) return cross_csg(geometry, primitive.root, ray.wide);
     if (geometry.leaves[primitive.root].kind == LeafKind::mesh)
-        return cross_mesh<T>(geometry, primitive.root, ray.wide, asking.t_max, asking.brute_force);
+        return cross_mesh<T>(geometry, primitive.root, ray.wide, asking.t_max, asking.brute_force, observer);
     if constexpr (!std::is_same_v<T, Wide<T>>)
         if (!asking.filtered && none(may_cross(geometry, geometry.leaves[primitive.root], ray.narrow)))
             return {infinity<Wide<T>>, 0, 0, 0, false, false};
     return cross_leaf(geometry, primitive.root, ray.wide);
 }
 
-template <class T>
-Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, const Asking<T>& asking) {
+template <class T, class Observer>
+Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, const Asking<T>& asking,
+               Observer observer) {
     using W = Wide<T>;
     const W end = ray.wide.t_max * (W(1) - gamma<W>(8));
     if (!primitive.is_csg && geometry.leaves[primitive.root].kind == LeafKind::mesh)
-        return mesh_blocks<T>(geometry, primitive.root, ray.wide, end, asking.brute_force);
-    const Crossing<W> crossing = first_crossing(geometry, primitive, ray, asking);
+        return mesh_blocks<T>(geometry, primitive.root, ray.wide, end, asking.brute_force, observer);
+    const Crossing<W> crossing = first_crossing(geometry, primitive, ray, asking, observer);
     if (none(crossing.hit) || !ray.wide.has_target) return crossing.hit;
     if (!(crossing.t < end)) return Mask<T>(false);
     return crossing.t + boundary_error(geometry, geometry.leaves[crossing.leaf], crossing.face, crossing.t, ray.wide) <
@@ -115,22 +122,25 @@ PlainPoint<T> estimate_point(const Geometry& geometry, const Crossing<Wide<T>>& 
     return {p, unit_normal(geometry, leaf, surface, ray.direction)};
 }
 
+// The number types that rays are traced with today. (float filters and shades, double decides.)
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&,
+                                         RAYBOUND_OBSERVER);
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&,
+                                         const Asking<double>&, RAYBOUND_OBSERVER);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&, RAYBOUND_OBSERVER);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&,
+                     RAYBOUND_OBSERVER);
+#ifndef RAYBOUND_COUNTED
+template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
+template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
+template PlainPoint<float> estimate_point(const Geometry&, const Crossing<double>&, const Ray<float>&);
+template PlainPoint<double> estimate_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
+
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
     if (primitive.is_csg) return false;
     const Leaf& leaf = geometry.leaves[primitive.root];
     return leaf.kind != LeafKind::mesh && leaf.kind != LeafKind::quadric && (outward || is_sheet(leaf));
 }
-
-// The number types that rays are traced with today. (float filters and shades, double decides.)
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&,
-                                         const Asking<float>&);
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&,
-                                         const Asking<double>&);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&);
-template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
-template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
-template PlainPoint<float> estimate_point(const Geometry&, const Crossing<double>&, const Ray<float>&);
-template PlainPoint<double> estimate_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
+#endif
 
 }  // namespace raybound

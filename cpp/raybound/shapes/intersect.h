@@ -45,14 +45,15 @@ struct Asking {
     T t_max = infinity<T>;     // nothing beyond is of interest
 };
 
-template <class T>
+// (`observer` sees what is visited within a mesh.)
+template <class T, class Observer = Unseen>
 Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                 const Asking<T>& asking = {});
+                                 const Asking<T>& asking = {}, Observer observer = {});
 
 // Does the primitive block the ray, certainly after its origin and certainly before its target, if it has one?
-template <class T>
+template <class T, class Observer = Unseen>
 Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-               const Asking<T>& asking = {});
+               const Asking<T>& asking = {}, Observer observer = {});
 
 // A hit with its error bounds. `entering`: the ray comes from outside. For solids that is a matter of which crossing it
 // is, not of the normal's sign, which rounding may turn at a silhouette. The box point +- point_error holds a point of
