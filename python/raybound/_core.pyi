@@ -184,6 +184,7 @@ def intersect_shape(
     offsets: str,
     inward: bool = False,
 ) -> npt.NDArray[np.void]: ...
+def closed_forms(shape: Shape, origins: _Double, directions: _Double, double: bool) -> npt.NDArray[np.void]: ...
 
 # Materials, textures, lights
 

@@ -340,6 +340,47 @@ def test_visits_are_measured() -> None:
         assert skipping["primitives"] < asking["primitives"]
 
 
+CLOSED = ("sphere", "cylinder", "disk", "mesh")
+
+
+@pytest.mark.parametrize("kind", ZOO)
+def test_closed_forms_are_those_of_the_seed(kind: str) -> None:
+    """In own coordinates, by hand: their points and bounds; the others have none."""
+    rng = np.random.default_rng(12)
+    body = body_of(ZOO[kind](rng, np.array([0.5, 1.0, 2.0]), 1.0))
+    rays = rays_at(rng, body, np.array([4.0, 5.0, 6.0]), 200)
+    for precision in ("float32", "float64"):
+        hits = rb.intersect(body.shape, rays.origins, rays.directions, precision=precision)
+        forms = rb._core.closed_forms(body.shape._native, rays.origins, rays.directions, precision == "float64")
+        assert np.array_equal(forms["known"], hits["hit"] & (kind in CLOSED))
+        known = forms["known"]
+        if kind not in CLOSED:
+            continue
+        assert known.sum() > 50
+        off = np.abs(forms["point"] - hits["point"])[known]
+        room = 100 * np.finfo(precision).eps  # t is rounded, and grazing rays make the most of it
+        assert (off <= room * 20).all()
+        assert np.median(off) < room / 20
+        # On top of the closed form come gamma_3 of the terms of the map to the world.
+        bound, low = forms["point_error"][known], 3 * np.finfo(precision).eps / 2
+        assert (bound >= low * np.abs(forms["point"][known]) * 0.99).all()
+        assert (bound <= 40 * np.finfo(precision).eps * 4).all()
+
+
+def test_closed_forms_at_the_origin() -> None:
+    """A sphere about the origin is mapped by the identity: gamma_5 of each coordinate, and no more."""
+    ways = np.random.default_rng(4).normal(size=(200, 3))
+    forms = rb._core.closed_forms(rb.Sphere((0, 0, 0), 2)._native, -5 * ways, ways, False)
+    assert forms["known"].all()
+    point = np.float32(forms["point"])
+    assert np.array_equal(np.float32(forms["point_error"]), np.abs(point) * rb.gamma(5))
+    gap = [abs(sum(Fraction(float(x)) ** 2 for x in p) - 4) for p in point]
+    assert all(g <= 4 * 2 * Fraction(float(rb.gamma(5))) * Fraction(101, 100) for g in gap)
+    assert sum(g > 0 for g in gap) > 100
+    with pytest.raises(ValueError, match="closed_forms: directions must not be zero, direction 1 is"):
+        rb._core.closed_forms(rb.Sphere()._native, ways[:2], ways[:2] * [[1], [0]], False)
+
+
 def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     readme, out, plot = tmp_path / "README.md", tmp_path / "error.json", tmp_path / "error.png"
     shutil.copy(ROOT / "README.md", readme)
@@ -362,9 +403,12 @@ def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
         assert way[f"over {way['offsets']} float32"] > 0 if way["offsets"] != "bounded" else True
     for counts in result["visits"]["hard cases"].values():
         assert counts["nodes"] >= counts["spawned"] > 0
+    for kind in CLOSED:
+        assert result["kinds"][kind]["float32"]["bounded"]["closed"] > 0
     assert plot.stat().st_size > 10_000
     block = readme.read_text().partition("<!-- bench error -->\n")[2].partition("<!-- /bench error -->")[0]
     assert block.count("| bounded, float32 |") == 3
+    assert block.count("| cylinder, float32 |") == 1
     assert "| huge |" in block
     assert block.splitlines()[0] in printed
     assert math.isfinite(case["totals"]["float32"]["bounded"]["offset_ulp"]["largest"])

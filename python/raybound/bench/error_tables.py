@@ -10,6 +10,9 @@ from .error_speed import WAYS, YARDSTICKS, Way, key, of_way
 from .tables import Table
 
 WORST = 8  # cases that the README shows
+# By kind of shape, the closed form of Physically Based Rendering 3.9.4.
+CLOSED_FORMS = {"sphere": "γ5", "cylinder": "γ3, caps 0", "disk": "0", "mesh": "γ7"}
+CLOSED_SAMPLES = ("point_ulp", "closed_ulp", "point_ratio", "closed_ratio")
 WRONG = {
     "self_hits": ("self_hits", "spawned"),
     "inner_hits": ("inner_hits", "entered"),
@@ -25,6 +28,7 @@ WRONG = {
 def tables(result: dict[str, Any]) -> Iterator[Table]:
     """Totals, speeds, then all hard cases and all kinds of shapes."""
     yield _totals(result)
+    yield _closed_forms(result)
     yield _visits(result)
     yield _speeds(result)
     yield _by(result["cases"], "case", "By hard case: false self-intersections and leaks", list(result["cases"]))
@@ -36,6 +40,7 @@ def tables(result: dict[str, Any]) -> Iterator[Table]:
 def readme_tables(result: dict[str, Any]) -> Iterator[Table]:
     """Totals, what bounds and spawned rays are beside the seeds', and the worst cases."""
     yield _totals(result)
+    yield _closed_forms(result)
     yield _visits(result)
     worst = sorted(result["cases"], key=lambda name: -_worst(result["cases"][name]["totals"]["float32"]))[:WORST]
     yield _by(result["cases"], "case", "The worst hard cases: false self-intersections and leaks", worst)
@@ -89,6 +94,24 @@ def _cost(speed: dict[str, Any], offsets: str, precision: str) -> list[str]:
     skipping = [w for w in speed["ways"] if (w["offsets"], w["precision"], w["skips"]) == (offsets, precision, True)]
     fair = f"{skipping[0]['over epsilon float32 skips']:.2f}" if skipping else "-"
     return [f"{way['ns_per_ray']:.0f}", f"{way['over epsilon float32']:.2f}", fair]
+
+
+def _closed_forms(result: dict[str, Any]) -> Table:
+    """Our bounds of hit points beside the seeds'."""
+    rows = []
+    for kind, form in CLOSED_FORMS.items():
+        for precision in PRECISIONS:
+            found = result["kinds"].get(kind, {}).get(precision, {}).get("bounded")
+            if not found or not found["closed"]:
+                continue
+            sizes = [f"{found[name]['median']:.3g}" if found[name] else "-" for name in CLOSED_SAMPLES]
+            broken = [share(found["own_broken"], found["closed"]), share(found["closed_broken"], found["closed"])]
+            rows.append([f"{kind}, {precision}", form, str(found["closed"]), *sizes, *broken])
+    columns = ["closed form", "hits", "bound, ulp", "closed, ulp", "bound/error", "closed/error", "broken", "closed"]
+    title = (
+        "Bounds of hit points along the normal, medians, and how many are below the true error: ours, and closed forms"
+    )
+    return Table(title, ["shape", *columns], rows)
 
 
 def _visits(result: dict[str, Any]) -> Table:
