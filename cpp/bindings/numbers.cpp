@@ -10,7 +10,7 @@ namespace {
 template <class T, class Function>
 py::array map(const py::array& input, Function f) {
     const auto in = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(input);
-    py::array_t<T> out(std::vector<py::ssize_t>(in.shape(), in.shape() + in.ndim()));
+    py::array_t<decltype(f(T()))> out(std::vector<py::ssize_t>(in.shape(), in.shape() + in.ndim()));
     for (py::ssize_t i = 0; i < in.size(); ++i) out.mutable_data()[i] = f(in.data()[i]);
     return out;
 }
@@ -52,6 +52,20 @@ void register_numbers(py::module_& m) {
         "next_float_down",
         [](const py::array& a) { return map_float_or_double(a, [](auto x) { return next_float_down(x); }); },
         "array"_a);
+    m.def(
+        "float_bits", [](const py::array& a) { return map_float_or_double(a, [](auto x) { return float_bits(x); }); },
+        "array"_a);
+    m.def(
+        "float_from_bits",
+        [](const py::array& bits, bool wide) {
+            if (wide) return map<std::uint64_t>(bits, [](std::uint64_t x) { return float_from_bits<double>(x); });
+            return map<std::uint32_t>(bits, [](std::uint32_t x) { return float_from_bits<float>(x); });
+        },
+        "bits"_a, "double"_a);
+    m.def(
+        "epsilon",
+        [](const Floats& x, float scale) { return map<float>(x, [scale](float v) { return epsilon(v, scale); }); },
+        "x"_a, "scale"_a);
     m.def(
         "gamma", [](int n, bool wide) { return wide ? gamma<double>(n) : double(gamma<float>(n)); }, "n"_a, "double"_a);
     m.def("spawn_origin", &spawn_origins, "p"_a, "p_error"_a, "n"_a, "w"_a);

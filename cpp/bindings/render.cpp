@@ -120,10 +120,10 @@ py::tuple primary_hits_tuple(const Snapshot& scene, const Camera& camera, int th
 }
 
 py::dict bounces(const Snapshot& scene, const Doubles& origins, const Doubles& directions, const std::string& precision,
-                 const std::string& offsets, bool skips) {
+                 const std::string& offsets, bool skips, bool count) {
     const auto o = to_vectors<double>(origins), d = to_vectors<double>(directions);
     if (o.size() != d.size()) throw std::invalid_argument("trace_bounces: as many origins as directions are wanted");
-    const Leaving leaving{offsets_named("trace_bounces", offsets), skips};
+    const Leaving leaving{offsets_named("trace_bounces", offsets), skips, count};
     Bounces counts;
     {
         const py::gil_scoped_release released;
@@ -131,7 +131,9 @@ py::dict bounces(const Snapshot& scene, const Doubles& origins, const Doubles& d
                                         : trace_bounces<double>(scene, o, d, leaving);
     }
     return py::dict("rays"_a = counts.rays, "hits"_a = counts.hits, "blocked"_a = counts.blocked,
-                    "radiance"_a = counts.radiance, "seconds"_a = counts.seconds);
+                    "spawned"_a = counts.spawned, "nodes"_a = counts.visits.nodes,
+                    "primitives"_a = counts.visits.primitives, "radiance"_a = counts.radiance,
+                    "seconds"_a = counts.seconds);
 }
 
 py::tuple tuple_of(const Vec3d& v) { return py::make_tuple(v.x, v.y, v.z); }
@@ -190,7 +192,7 @@ void register_render(py::module_& m) {
     m.def("closest_hits", &closest_hits_dict, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "threads"_a);
     m.def("primary_hits", &primary_hits_tuple, "snapshot"_a, "camera"_a, py::kw_only(), "threads"_a);
     m.def("trace_bounces", &bounces, "snapshot"_a, "origins"_a, "directions"_a, py::kw_only(), "precision"_a,
-          "offsets"_a, "skips"_a);
+          "offsets"_a, "skips"_a, "count"_a = false);
     m.def("explain", &explain, "snapshot"_a, "camera"_a, "x"_a, "y"_a, "max_depth"_a);
 }
 

@@ -1,5 +1,5 @@
 #include "bindings/number_rows.h"
-#include "raybound/numbers/running_error_quadratic.h"
+#include "raybound/numbers/running_error_functions.h"
 
 namespace raybound::python {
 
@@ -16,39 +16,20 @@ void store(const T& x, double* row) {
     row[0] = x.value(), row[1] = x.lower(), row[2] = x.upper();
 }
 
-// Calls f with a number type's name: float or double, its shadow checking or not.
+// Calls f with a number of float or double, whose shadow checks.
 template <class Function>
-auto with_type(bool wide, bool shadow, Function f) {
-    if (wide) return shadow ? f(RunningError<double, HighPrecision<double>>()) : f(RunningError<double, NoShadow>());
-    return shadow ? f(RunningError<float, HighPrecision<float>>()) : f(RunningError<float, NoShadow>());
+void with_type(bool wide, Function f) {
+    if (wide) return f(RunningError<double, HighPrecision<double>>());
+    f(RunningError<float, HighPrecision<float>>());
 }
 
-// The two roots as rows of six, and per row the verdict (0 no, 1 yes, 2 unknown) and what the plain kernel says.
-py::tuple running_error_quadratic(const std::vector<Doubles>& coefficients, bool wide, bool shadow) {
-    const Operands rows(coefficients, 3);
-    Doubles roots({rows.count(), py::ssize_t(6)});
-    py::array_t<int> answers({rows.count(), py::ssize_t(2)});
-    with_type(wide, shadow, [&]<class T>(T) {
-        for (py::ssize_t i = 0; i < rows.count(); ++i) {
-            T low, high;
-            const RunningVerdict real =
-                quadratic(load<T>(rows.at(i, 0)), load<T>(rows.at(i, 1)), load<T>(rows.at(i, 2)), &low, &high);
-            store(low, roots.mutable_data() + 6 * i);
-            store(high, roots.mutable_data() + 6 * i + 3);
-            answers.mutable_data()[2 * i] = static_cast<int>(real.certain);
-            answers.mutable_data()[2 * i + 1] = real.computed;
-        }
-    });
-    return py::make_tuple(roots, answers);
-}
-
-// select(a < b, a, b), with the comparison's answers as above.
+// select(a < b, a, b), and per row what is certain of a < b (0 no, 1 yes, 2 unknown) and what the plain kernel says.
 py::tuple running_error_lesser(const Doubles& a, const Doubles& b, bool wide) {
     const std::vector<Doubles> arrays{a, b};
     const Operands rows(arrays, 3);
     Doubles out({rows.count(), py::ssize_t(3)});
     py::array_t<int> answers({rows.count(), py::ssize_t(2)});
-    with_type(wide, true, [&]<class T>(T) {
+    with_type(wide, [&]<class T>(T) {
         for (py::ssize_t i = 0; i < rows.count(); ++i) {
             const T x = load<T>(rows.at(i, 0)), y = load<T>(rows.at(i, 1));
             store(select(x < y, x, y), out.mutable_data() + 3 * i);
@@ -71,13 +52,12 @@ struct BrokenAddition {
 };
 
 void running_error_broken_addition(double a, double b, bool wide) {
-    with_type(wide, true, [&]<class T>(T) { T::apply("broken addition", 0, true, BrokenAddition{}, T(a), T(b)); });
+    with_type(wide, [&]<class T>(T) { T::apply("broken addition", 0, true, BrokenAddition{}, T(a), T(b)); });
 }
 
 }  // namespace
 
 void register_running_errors(py::module_& m) {
-    m.def("running_error_quadratic", &running_error_quadratic, "coefficients"_a, "double"_a, "shadow"_a);
     m.def("running_error_lesser", &running_error_lesser, "a"_a, "b"_a, "double"_a);
     m.def("running_error_broken_addition", &running_error_broken_addition, "a"_a, "b"_a, "double"_a);
 }

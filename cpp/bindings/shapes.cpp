@@ -2,6 +2,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/offsets.h"
+#include "raybound/frame/closed_forms.h"
 #include "raybound/frame/query.h"
 #include "raybound/shapes/mesh.h"
 
@@ -31,6 +32,13 @@ py::array_t<ShapeHitRecord> intersect(const ShapePointer& shape, const Doubles& 
     return from_vector(records);
 }
 
+py::array closed_forms_of(const ShapePointer& shape, const Doubles& origins, const Doubles& directions, bool wide) {
+    const std::vector<Vec3d> o = doubles(origins), d = doubles(directions);
+    if (o.size() != d.size())
+        throw std::invalid_argument("closed_forms: origins and directions must have the same shape");
+    return from_vector(wide ? closed_forms<double>(*shape, o, d) : closed_forms<float>(*shape, o, d));
+}
+
 using Indices = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
 
 template <class Item, class Array>
@@ -58,6 +66,7 @@ ShapePointer mesh(const Floats& vertices, const Indices& faces, const std::optio
 
 void register_shapes(py::module_& m) {
     PYBIND11_NUMPY_DTYPE(ShapeHitRecord, hit, t, t_error, point, point_error, normal, uv, face_id, next_origin);
+    PYBIND11_NUMPY_DTYPE(ClosedFormRecord, known, point, point_error);
 
     py::class_<Shape, std::shared_ptr<Shape>>(m, "Shape", py::is_final())
         .def("bounds", [](const Shape& s) { return from_bounds(shape_bounds(s, {})); })
@@ -155,6 +164,12 @@ void register_shapes(py::module_& m) {
         [](const std::shared_ptr<Shape>& shape, const Doubles& o, const Doubles& d, const std::string& precision,
            const std::string& offsets, bool inward) { return intersect(shape, o, d, precision, offsets, inward); },
         "shape"_a, "origins"_a, "directions"_a, "precision"_a, "offsets"_a, "inward"_a = false);
+    m.def(
+        "closed_forms",
+        [](const std::shared_ptr<Shape>& shape, const Doubles& o, const Doubles& d, bool wide) {
+            return closed_forms_of(shape, o, d, wide);
+        },
+        "shape"_a, "origins"_a, "directions"_a, "double"_a);
 }
 
 }  // namespace raybound::python

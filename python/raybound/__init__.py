@@ -17,8 +17,17 @@ import logging as _logging
 from . import _levels  # noqa: F401  isort: skip  # it makes `_core` the best build for this CPU
 from . import _core
 from .camera import Camera
-from .enums import Path, RayKind, Reason
-from .floats import gamma, intersect, next_float_down, next_float_up, spawn_origin
+from .enums import Path, RayKind, Reason, Verdict
+from .floats import (
+    epsilon,
+    float_bits,
+    float_from_bits,
+    gamma,
+    intersect,
+    next_float_down,
+    next_float_up,
+    spawn_origin,
+)
 from .frame import Frame
 from .handles import LightHandle, Object
 from .lights import DirectionalLight, PointLight, SpotLight
@@ -41,6 +50,7 @@ from .numbers import (
     maximum,
     minimum,
     power,
+    quadratic,
     reciprocal,
     rsqrt,
     sin,
@@ -95,13 +105,17 @@ __all__ = [
     "TraceResult",
     "Transform",
     "Union",
+    "Verdict",
     "__version__",
     "abs",
     "acos",
     "asin",
     "atan",
     "cos",
+    "epsilon",
     "exp",
+    "float_bits",
+    "float_from_bits",
     "fma",
     "gamma",
     "intersect",
@@ -114,6 +128,7 @@ __all__ = [
     "next_float_up",
     "plot",
     "power",
+    "quadratic",
     "reciprocal",
     "render",
     "report",

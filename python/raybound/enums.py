@@ -1,4 +1,4 @@
-"""How a pixel was made, and why it was traced. The numbers are those in `frame.path` and `frame.reason`."""
+"""How a pixel was made, why it was traced, and what is certain: the numbers that arrays of these hold."""
 
 from __future__ import annotations
 
@@ -39,3 +39,11 @@ class RayKind(IntEnum):
     EYE = 0  # the ray that was asked for
     REFLECTED = 1
     REFRACTED = 2
+
+
+class Verdict(IntEnum):
+    """What is certain of a statement about numbers with errors. UNKNOWN is never to be read as NO."""
+
+    NO = 0  # whatever the exact numbers are
+    YES = 1  # whatever they are
+    UNKNOWN = 2

@@ -1,4 +1,4 @@
-"""next_float_up, next_float_down against numpy.nextafter; gamma against exact rationals."""
+"""next_float_up, next_float_down against numpy.nextafter; bits; gamma against exact rationals."""
 
 from fractions import Fraction
 
@@ -86,6 +86,51 @@ def test_shapes_and_types() -> None:
     for bad in ("1", None, 1j, True, np.array([True])):
         with pytest.raises(TypeError, match="next_float_up: x"):
             rb.next_float_up(bad)
+
+
+@pytest.mark.parametrize("dtype", TYPES)
+def test_bits_are_those_of_memory(dtype: type) -> None:
+    """Of all numbers, NaNs with their payloads among them; and back, to the bit."""
+    x = np.concatenate([patterns(dtype, 100_000), special(dtype)])
+    bits = rb.float_bits(x)
+    assert bits.dtype == TYPES[dtype]
+    assert np.array_equal(bits, x.view(TYPES[dtype]))
+    for back in (rb.float_from_bits(bits), rb.float_from_bits(bits, dtype)):
+        assert back.dtype == dtype
+        assert np.array_equal(back.view(TYPES[dtype]), bits)
+    assert np.isnan(x).sum() > 50  # one in 2^11 patterns of float64
+    assert len(np.unique(bits[np.isnan(x)])) > 40
+
+
+def test_bits_of_known_numbers() -> None:
+    assert rb.float_bits(np.float32(1)) == 0x3F800000
+    assert rb.float_bits(1) == rb.float_bits(1.0) == 0x3FF0000000000000
+    assert type(rb.float_bits(1.0)) is np.uint64
+    assert rb.float_bits(np.float16(-2)) == 0xC0000000
+    assert rb.float_from_bits(0x7F7FFFFF, np.float32) == np.finfo(np.float32).max
+    assert rb.float_from_bits(1, np.float64) == 5e-324
+    assert rb.float_from_bits(np.array([0, 2**63], np.uint64)).tolist() == [0.0, -0.0]
+    assert np.isnan(rb.float_from_bits(np.uint32(0x7F800001)))
+    for shape in ((), (0,), (2, 3), (2, 0, 4)):
+        bits = rb.float_bits(np.ones(shape, np.float32))
+        assert bits.shape == rb.float_from_bits(bits).shape == shape
+
+
+def test_bits_refuse() -> None:
+    for bad in ("1", None, 1j, True):
+        with pytest.raises(TypeError, match="float_bits: x must be"):
+            rb.float_bits(bad)
+        with pytest.raises(TypeError, match="float_from_bits: bits must be"):
+            rb.float_from_bits(bad)
+    with pytest.raises(TypeError, match="bits must be an integer or an array of integers, got dtype float64"):
+        rb.float_from_bits(1.0, np.float32)
+    with pytest.raises(TypeError, match=r"dtype must be float32 or float64 .*, got None for bits of dtype int64"):
+        rb.float_from_bits(1)
+    with pytest.raises(TypeError, match=r"dtype must be float32 or float64 .*, got <class 'numpy.float16'>"):
+        rb.float_from_bits(1, np.float16)
+    for bad in (-1, 2**32, [0, -7]):
+        with pytest.raises(ValueError, match=r"float_from_bits: bits must fit in uint32, got -?[0-9]+"):
+            rb.float_from_bits(bad, np.float32)
 
 
 @pytest.mark.parametrize(("dtype", "unit"), [(np.float32, Fraction(1, 2**24)), (np.float64, Fraction(1, 2**53))])

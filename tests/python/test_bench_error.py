@@ -16,7 +16,7 @@ from tests.support.support_oracle import at as value_at
 from tests.support.support_oracle import build, exact, is_member, real_roots
 
 import raybound as rb
-from raybound.bench import error, error_probe, error_seams
+from raybound.bench import error, error_probe, error_seams, error_speed, error_visits
 from raybound.bench.error_bodies import ZOO, Body, body_of, kind_of
 from raybound.bench.error_exact import TwoDoubles
 from raybound.bench.error_oracle import nearest_root
@@ -271,6 +271,101 @@ def test_bounces_are_the_same_whether_rays_skip_what_they_left() -> None:
         rb._core.trace_bounces(snapshot, o, 0 * d, precision="float32", offsets="bounded", skips=False)
 
 
+def test_what_is_counted_is_what_the_search_visits() -> None:
+    """Counting changes nothing else, and nothing is counted unless it is asked for."""
+    scene = rb.scenes.hard_case("far-mesh")
+    snapshot, (o, d) = scene._document.snapshot(), error_speed.eye_rays(scene)
+    for precision in ("float32", "float64"):
+        plain, counted = (
+            rb._core.trace_bounces(snapshot, o, d, precision=precision, offsets="bounded", skips=True, count=count)
+            for count in (False, True)
+        )
+        for name in ("rays", "hits", "blocked", "spawned", "radiance"):
+            assert plain[name] == counted[name], name  # type: ignore[literal-required]
+        assert plain["nodes"] == plain["primitives"] == 0
+        assert plain["spawned"] == plain["rays"] - len(o)
+        assert counted["nodes"] > counted["spawned"]  # a mesh has nodes of its own
+        assert counted["primitives"] > 0
+
+
+def bounces_off(shapes: list[Any], skips: bool) -> dict[str, Any]:
+    """One ray straight down at the origin."""
+    scene = rb.Scene()
+    for shape in shapes:
+        scene.add(shape, rb.Material())
+    scene.add_light(rb.DirectionalLight((0, 0, -1)))
+    o, d = np.array([[0.1, 0.0, 5.0]]), np.array([[0.0, 0.0, -1.0]])
+    snapshot = scene._document.snapshot()
+    found: Any = rb._core.trace_bounces(snapshot, o, d, precision="float32", offsets="bounded", skips=skips, count=True)
+    assert (found["rays"], found["spawned"], found["hits"]) == (3, 2, 1)
+    return {name: found[name] for name in ("nodes", "primitives")}
+
+
+def test_visits_of_one_ray() -> None:
+    """A shadow ray and a mirrored one leave a floor upward: one node each, the floor, and whatever is above it."""
+    floor, aside = rb.Box((-9, -9, -1), (9, 9, 0)), rb.Box((3, 3, 1), (4, 4, 2))
+    grazed = rb.Cone((0.95, 0.95, 9), (0.95, 0.95, 10), radius=1)  # whose box is met, at a corner, and not itself
+    for skips in (False, True):
+        asked = 0 if skips else 2  # a ray that leaves the floor is still in its box
+        assert bounces_off([floor], skips) == {"nodes": 2, "primitives": asked}
+        assert bounces_off([floor, aside], skips) == {"nodes": 2, "primitives": asked}
+        assert bounces_off([floor, aside, grazed], skips) == {"nodes": 2, "primitives": asked + 2}
+
+
+def test_visits_are_measured() -> None:
+    visits = error_visits.measure(["huge", "far-mirror"])
+    assert list(visits) == ["hard cases", "museum", "sphereflake"]
+    for found in visits.values():
+        assert list(found) == [error_speed.key(way) for way in error_speed.WAYS]
+        for counts in found.values():
+            assert counts["nodes"] >= counts["spawned"] > 0
+            assert counts["primitives"] > 0
+        skipping, asking = (found[error_speed.key(("bounded", "float32", skips))] for skips in (True, False))
+        assert skipping["nodes"] == asking["nodes"]
+        assert skipping["primitives"] < asking["primitives"]
+
+
+CLOSED = ("sphere", "cylinder", "disk", "mesh")
+
+
+@pytest.mark.parametrize("kind", ZOO)
+def test_closed_forms_are_those_of_the_seed(kind: str) -> None:
+    """In own coordinates, by hand: their points and bounds; the others have none."""
+    rng = np.random.default_rng(12)
+    body = body_of(ZOO[kind](rng, np.array([0.5, 1.0, 2.0]), 1.0))
+    rays = rays_at(rng, body, np.array([4.0, 5.0, 6.0]), 200)
+    for precision in ("float32", "float64"):
+        hits = rb.intersect(body.shape, rays.origins, rays.directions, precision=precision)
+        forms = rb._core.closed_forms(body.shape._native, rays.origins, rays.directions, precision == "float64")
+        assert np.array_equal(forms["known"], hits["hit"] & (kind in CLOSED))
+        known = forms["known"]
+        if kind not in CLOSED:
+            continue
+        assert known.sum() > 50
+        off = np.abs(forms["point"] - hits["point"])[known]
+        room = 100 * np.finfo(precision).eps  # t is rounded, and grazing rays make the most of it
+        assert (off <= room * 20).all()
+        assert np.median(off) < room / 20
+        # On top of the closed form come gamma_3 of the terms of the map to the world.
+        bound, low = forms["point_error"][known], 3 * np.finfo(precision).eps / 2
+        assert (bound >= low * np.abs(forms["point"][known]) * 0.99).all()
+        assert (bound <= 40 * np.finfo(precision).eps * 4).all()
+
+
+def test_closed_forms_at_the_origin() -> None:
+    """A sphere about the origin is mapped by the identity: gamma_5 of each coordinate, and no more."""
+    ways = np.random.default_rng(4).normal(size=(200, 3))
+    forms = rb._core.closed_forms(rb.Sphere((0, 0, 0), 2)._native, -5 * ways, ways, False)
+    assert forms["known"].all()
+    point = np.float32(forms["point"])
+    assert np.array_equal(np.float32(forms["point_error"]), np.abs(point) * rb.gamma(5))
+    gap = [abs(sum(Fraction(float(x)) ** 2 for x in p) - 4) for p in point]
+    assert all(g <= 4 * 2 * Fraction(float(rb.gamma(5))) * Fraction(101, 100) for g in gap)
+    assert sum(g > 0 for g in gap) > 100
+    with pytest.raises(ValueError, match="closed_forms: directions must not be zero, direction 1 is"):
+        rb._core.closed_forms(rb.Sphere()._native, ways[:2], ways[:2] * [[1], [0]], False)
+
+
 def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     readme, out, plot = tmp_path / "README.md", tmp_path / "error.json", tmp_path / "error.png"
     shutil.copy(ROOT / "README.md", readme)
@@ -284,16 +379,21 @@ def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert set(result["kinds"]) == set(case["kinds"]) == KINDS
     for where in (result["totals"], case["totals"], *result["kinds"].values()):
         for precision in ("float32", "float64"):
-            assert list(where[precision]) == ["bounded", "epsilon", "scaled-epsilon"]
+            assert list(where[precision]) == ["bounded", "epsilon", "scaled-epsilon", "whole-epsilon"]
             for summary in where[precision].values():
                 assert set(summary) == {*COUNTS, *SAMPLES, "failures"}
             assert not any(where[precision]["bounded"][name] for name in NEVER)
     for way in result["speed"]["ways"]:
         assert way["ns_per_ray"] > 0
         assert way[f"over {way['offsets']} float32"] > 0 if way["offsets"] != "bounded" else True
+    for counts in result["visits"]["hard cases"].values():
+        assert counts["nodes"] >= counts["spawned"] > 0
+    for kind in CLOSED:
+        assert result["kinds"][kind]["float32"]["bounded"]["closed"] > 0
     assert plot.stat().st_size > 10_000
     block = readme.read_text().partition("<!-- bench error -->\n")[2].partition("<!-- /bench error -->")[0]
-    assert block.count("| bounded, float32 |") == 2
+    assert block.count("| bounded, float32 |") == 3
+    assert block.count("| cylinder, float32 |") == 1
     assert "| huge |" in block
     assert block.splitlines()[0] in printed
     assert math.isfinite(case["totals"]["float32"]["bounded"]["offset_ulp"]["largest"])

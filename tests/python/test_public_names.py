@@ -13,9 +13,10 @@ import raybound as rb
 NAMES = """
     Sphere Box Cylinder Cone Disk Polygon Quadric Mesh Union Intersection Difference Shape Transform Material Texture
     DirectionalLight PointLight SpotLight Scene Object LightHandle load_scene load_mesh Camera Renderer Tolerance render
-    Frame Path RayKind Reason next_float_up next_float_down gamma spawn_origin intersect testing report plot scenes TraceResult
-    Interval RunningError LinearInterval TaylorModel abs acos asin atan cos exp fma log maximum minimum power reciprocal
-    rsqrt sin sqrt square tan ward_lobe __version__
+    Frame Path RayKind Reason Verdict next_float_up next_float_down gamma epsilon float_bits float_from_bits
+    spawn_origin intersect testing report plot scenes TraceResult Interval RunningError LinearInterval TaylorModel abs
+    acos asin atan cos exp fma log maximum minimum power quadratic reciprocal rsqrt sin sqrt square tan ward_lobe
+    __version__
 """.split()  # noqa: SIM905  a page of names reads better than a list of strings
 
 
@@ -124,7 +125,7 @@ def test_spawned_origins_leave_their_box() -> None:
 def test_intersections_with_one_shape() -> None:
     origins, directions = [(0, 0, 5), (3, 0, 5)], [(0, 0, -2), (0, 0, -1)]
     for precision in ("float32", "float64"):
-        for offsets in ("bounded", "epsilon", "scaled-epsilon"):
+        for offsets in ("bounded", "epsilon", "scaled-epsilon", "whole-epsilon"):
             found = rb.intersect(rb.Sphere(), origins, directions, precision=precision, offsets=offsets)
             assert found["hit"].tolist() == [True, False]
             assert found["t"][0] == pytest.approx(2)
@@ -133,7 +134,8 @@ def test_intersections_with_one_shape() -> None:
     assert set(found.dtype.names or ()) == set(names)
     with pytest.raises(ValueError, match="intersect: precision must be one of 'float32', 'float64', got 'float16'"):
         rb.intersect(rb.Sphere(), origins, directions, precision="float16")
-    with pytest.raises(ValueError, match="intersect: offsets must be one of 'bounded', 'epsilon', 'scaled-epsilon'"):
+    names = "'bounded', 'epsilon', 'scaled-epsilon', 'whole-epsilon', got 'none'"
+    with pytest.raises(ValueError, match=f"intersect: offsets must be one of {names}"):
         rb.intersect(rb.Sphere(), origins, directions, offsets="none")
     with pytest.raises(TypeError, match="intersect: shape must be a Shape, got 3"):
         rb.intersect(3, origins, directions)

@@ -121,7 +121,7 @@ def test_epsilon_offsets_do_fail() -> None:
     rng = np.random.default_rng(9)
     center = np.array([1e5, 1e5, 1e5])
     again = 0
-    for offsets in ("epsilon", "scaled-epsilon"):
+    for offsets in ("epsilon", "scaled-epsilon", "whole-epsilon"):
         sphere = rb.Sphere(center, 100)
         hits = rb.intersect(sphere, *aimed_rays(rng, sphere, 5000, 50), offsets=offsets)
         hits = hits[hits["hit"]]

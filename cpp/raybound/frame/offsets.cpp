@@ -31,9 +31,9 @@ Departing<T> depart(const Geometry& geometry, const Nearest<T>& nearest, const W
     return {epsilon_origin(hit.point, side, leaving.offsets), side, left};
 }
 
-template <class T>
+template <class T, class Observer>
 Vec3<T> light_of(const Snapshot& scene, const Material& material, const Departing<T>& from, const Vec3<T>& view,
-                 Bounces& counts) {
+                 Bounces& counts, Observer observer) {
     const Vec3<T> diffuse(material.diffuse);
     const T n_dot_v = dot(from.side, view);
     Vec3<T> sum = Vec3<T>(scene.ambient()) * diffuse;
@@ -45,8 +45,8 @@ Vec3<T> light_of(const Snapshot& scene, const Material& material, const Departin
         const WideRay<T> ray = light.kind == LightKind::directional
                                    ? WideRay<T>(from.origin, in.direction)
                                    : WideRay<T>::segment(from.origin, Vec3<T>(light.position));
-        const bool blocked = is_blocked(scene, ray, from.departed, nullptr);
-        ++counts.rays;
+        const bool blocked = is_blocked(scene, ray, from.departed, nullptr, Acceleration::bvh, nullptr, observer);
+        ++counts.rays, ++counts.spawned;
         counts.blocked += blocked;
         if (!blocked)
             sum = sum + in.irradiance * reflectance(diffuse, material, from.side, in.direction, view, n_dot_l, n_dot_v);
@@ -54,20 +54,31 @@ Vec3<T> light_of(const Snapshot& scene, const Material& material, const Departin
     return sum;
 }
 
-template <class T>
-Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed, const Leaving& leaving, int depth,
-               Bounces& counts) {
+// What `nearest` was found to be sends back, and what comes by the mirrored ray, once.
+template <class T, class Observer>
+Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, const Nearest<T>& nearest, const Leaving& leaving,
+               bool is_last, Bounces& counts, Observer observer) {
     ++counts.rays;
-    const Nearest<T> nearest = closest_hit(scene, ray, departed);
     if (!nearest.hit) return Vec3<T>(scene.background());
     ++counts.hits;
     const Material& material = *scene.objects()[scene.geometry().primitives[nearest.primitive].object].material;
     const Vec3<T>& d = ray.narrow.direction;
     const Departing<T> from = depart(scene.geometry(), nearest, ray, leaving);
-    const Vec3<T> local = light_of(scene, material, from, -d, counts);
-    if (depth == 1) return local;
+    const Vec3<T> local = light_of(scene, material, from, -d, counts, observer);
+    if (is_last) return local;
     const WideRay<T> mirrored(from.origin, reflected_direction(d, from.side));
-    return local + bounce(scene, mirrored, from.departed, leaving, depth - 1, counts);
+    ++counts.spawned;
+    const Nearest<T> next = closest_hit(scene, mirrored, from.departed, Acceleration::bvh, nullptr, observer);
+    return local + bounce(scene, mirrored, next, leaving, true, counts, observer);
+}
+
+template <class T, class Observer>
+Vec3<T> sum_of_bounces(const Snapshot& scene, const std::vector<WideRay<T>>& rays, const Leaving& leaving,
+                       Bounces& counts, Observer observer) {
+    Vec3<T> radiance;
+    for (const WideRay<T>& ray : rays)
+        radiance = radiance + bounce(scene, ray, closest_hit(scene, ray), leaving, false, counts, observer);
+    return radiance;
 }
 
 }  // namespace
@@ -85,8 +96,8 @@ Bounces trace_bounces(const Snapshot& scene, std::span<const Vec3d> origins, std
     }
     Bounces counts;
     const std::clock_t begin = std::clock();
-    Vec3<T> radiance;
-    for (const WideRay<T>& ray : rays) radiance = radiance + bounce(scene, ray, {}, leaving, 2, counts);
+    const Vec3<T> radiance = leaving.counts ? sum_of_bounces(scene, rays, leaving, counts, Counted{&counts.visits})
+                                            : sum_of_bounces(scene, rays, leaving, counts, Unseen{});
     counts.seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
     counts.radiance = double(radiance.x + radiance.y + radiance.z);
     return counts;

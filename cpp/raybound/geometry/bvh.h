@@ -19,6 +19,46 @@ struct alignas(64) BvhNode {
     std::uint32_t parent;             // the node and slot that lead here: node * 8 + slot
 };
 
+// Who is told what a search visits: nobody, or two counters. A visit without an observer is the plain function that it
+// is, and so is the code of its traversals.
+struct Unseen {
+    void node() const {}
+    void primitive() const {}
+};
+struct Visits {
+    std::uint64_t nodes = 0, primitives = 0;
+};
+struct Counted {
+    Visits* visits;
+    void node() const { ++visits->nodes; }
+    void primitive() const { ++visits->primitives; }
+};
+template <class Visit>
+struct CountedVisit {
+    const Visit& visit;
+    Counted observer;
+    template <class... Arguments>
+    auto operator()(Arguments... arguments) const {
+        return visit(arguments...);
+    }
+};
+template <class Visit>
+inline const Visit& observed(const Visit& visit, Unseen) {
+    return visit;
+}
+template <class Visit>
+inline CountedVisit<Visit> observed(const Visit& visit, Counted observer) {
+    return {visit, observer};
+}
+template <class Visit>
+inline Unseen observer_of(const Visit&) {
+    return {};
+}
+template <class Visit>
+inline Counted observer_of(const CountedVisit<Visit>& visit) {
+    return visit.observer;
+}
+
 class Bvh {
   public:
     static constexpr std::uint32_t leaf_bit = 0x80000000u;
@@ -133,6 +173,7 @@ void Bvh::traverse(const SlabRay<T>& ray, T& t_max, const Visit& visit, const Fr
     for (;;) {
         while (!(top.child & leaf_bit)) {
             const BvhNode& node = nodes[top.child];
+            observer_of(visit).node();
             Pack<T> near;
             std::uint32_t crossed = bvh::crossed_children(node, ray, t_max, near);
             if (crossed == 0) goto next;
@@ -169,6 +210,7 @@ bool Bvh::any(const SlabRay<T>& ray, T t_max, const Visit& visit) const {
     std::uint32_t current = 0;
     for (;;) {
         const BvhNode& node = nodes_[current];
+        observer_of(visit).node();
         Pack<T> near;
         for (std::uint32_t crossed = bvh::crossed_children(node, ray, t_max, near); crossed != 0;) {
             const int k = bvh::take_lowest(crossed);

@@ -88,6 +88,15 @@ class RunningError {
                         divide_up(subtract_up(value_, lower()), std::abs(lower())));
     }
 
+    // |precise - value| / |precise|, where the shadow's value is taken for the exact one (seeds/000: GetRelativeError).
+    // An estimate, as the shadow rounds as well; 0 where there is no error, infinite for an error of 0.
+    HigherPrecision<T> estimate_relative_error() const
+        requires(Shadow::checks)
+    {
+        const auto precise = shadow_.reference.value;
+        return precise == value_ ? 0 : std::abs((precise - value_) / precise);
+    }
+
     // An operation that T, intervals and the shadow's numbers all have, applied to the operands' three parts. Where it
     // is not `defined` on the operands' enclosures the result is flagged. `slack` is the error of the shadow's
     // operation in its units in the last place, 0 if it is correctly rounded. Throws std::logic_error if the shadow

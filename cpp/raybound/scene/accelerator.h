@@ -129,16 +129,19 @@ void Accelerator::traverse(const Geometry& geometry, const Ray<T>& ray, T& t_max
                            const Bvh::Frontier* from) const {
     if (from && from->count == 0) return;
     SearchRay<T> search(ray);
-    bvh_.traverse(
-        search.slabs, t_max,
-        [&](std::uint32_t leaf, T near) { visit_leaf(geometry, leaf, near, search, t_max, visit); }, from);
+    bvh_.traverse(search.slabs, t_max,
+                  observed([&](std::uint32_t leaf, T near) { visit_leaf(geometry, leaf, near, search, t_max, visit); },
+                           observer_of(visit)),
+                  from);
 }
 
 template <class T, class Visit>
 bool Accelerator::any(const Geometry& geometry, const Ray<T>& ray, T t_max, const Visit& visit) const {
     SearchRay<T> search(ray);
-    return bvh_.any(search.slabs, t_max,
-                    [&](std::uint32_t leaf, T near) { return visit_leaf(geometry, leaf, near, search, t_max, visit); });
+    return bvh_.any(
+        search.slabs, t_max,
+        observed([&](std::uint32_t leaf, T near) { return visit_leaf(geometry, leaf, near, search, t_max, visit); },
+                 observer_of(visit)));
 }
 
 }  // namespace raybound

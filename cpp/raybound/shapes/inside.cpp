@@ -267,23 +267,23 @@ Crossing<double> no_crossing() { return {infinity<double>, 0, 0, 0, false, false
 
 }  // namespace
 
-template <class T>
+template <class T, class Observer>
 Crossing<Wide<T>> crossing_from_inside(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                       const Departure& from, const Asking<T>& asking) {
+                                       const Departure& from, const Asking<T>& asking, Observer observer) {
     if (is_convex(geometry, primitive)) return exit_crossing(geometry, primitive.root, 0, ray.wide);
     const double rounding = rounding_of(primitive, ray.wide), near = 4 * rounding / length(ray.wide.direction);
-    const Crossing<double> natural = first_crossing(geometry, primitive, ray, asking);
+    const Crossing<double> natural = first_crossing(geometry, primitive, ray, asking, observer);
     if (natural.hit && !natural.entering && natural.t > 2 * near) return natural;
     const std::vector<Stretch> stretches = stretches_of(geometry, primitive, ray.wide);
     if (const Stretch* found = NextCrossing(stretches, from, near).exit()) return ahead(found->out);
     return forced_exit(geometry, primitive, ray.wide, rounding);
 }
 
-template <class T>
+template <class T, class Observer>
 Crossing<Wide<T>> crossing_from_outside(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                        const Departure& from, bool left, const Asking<T>& asking) {
+                                        const Departure& from, bool left, const Asking<T>& asking, Observer observer) {
     const double rounding = rounding_of(primitive, ray.wide), near = 4 * rounding / length(ray.wide.direction);
-    const Crossing<double> natural = first_crossing(geometry, primitive, ray, asking);
+    const Crossing<double> natural = first_crossing(geometry, primitive, ray, asking, observer);
     if (!natural.hit || (natural.entering && !(left && natural.t <= 2 * near))) return natural;
     const std::vector<Stretch> stretches = stretches_of(geometry, primitive, ray.wide);
     const bool outside = left || std::abs(depth_of(geometry, primitive, ray.wide.origin)) <= rounding;
@@ -305,13 +305,15 @@ bool contains(const Geometry& geometry, const Primitive& primitive, const Vec3d&
     return depth_of(geometry, primitive, p) >= 0;
 }
 
-template Crossing<double> crossing_from_inside(const Geometry&, const Primitive&, const WideRay<float>&,
-                                               const Departure&, const Asking<float>&);
-template Crossing<double> crossing_from_inside(const Geometry&, const Primitive&, const WideRay<double>&,
-                                               const Departure&, const Asking<double>&);
-template Crossing<double> crossing_from_outside(const Geometry&, const Primitive&, const WideRay<float>&,
-                                                const Departure&, bool, const Asking<float>&);
-template Crossing<double> crossing_from_outside(const Geometry&, const Primitive&, const WideRay<double>&,
-                                                const Departure&, bool, const Asking<double>&);
+#define RAYBOUND_INSTANTIATE(T, Observer)                                                                             \
+    template Crossing<double> crossing_from_inside(const Geometry&, const Primitive&, const WideRay<T>&,              \
+                                                   const Departure&, const Asking<T>&, Observer);                     \
+    template Crossing<double> crossing_from_outside(const Geometry&, const Primitive&, const WideRay<T>&,             \
+                                                    const Departure&, bool, const Asking<T>&, Observer);
+RAYBOUND_INSTANTIATE(float, Unseen)
+RAYBOUND_INSTANTIATE(double, Unseen)
+RAYBOUND_INSTANTIATE(float, Counted)
+RAYBOUND_INSTANTIATE(double, Counted)
+#undef RAYBOUND_INSTANTIATE
 
 }  // namespace raybound

@@ -24,15 +24,16 @@ struct Departure {
 };
 
 // The crossing by which a ray leaves a closed primitive that it is inside of: there always is one, with t >= 0.
-template <class T>
+template <class T, class Observer = Unseen>
 Crossing<Wide<T>> crossing_from_inside(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                       const Departure& from, const Asking<T>& asking = {});
+                                       const Departure& from, const Asking<T>& asking = {}, Observer observer = {});
 
 // The first crossing of a closed primitive that a ray is not inside of. `left`: it begins on it. Of another it may have
 // started well inside after all, where solids overlap: then that is the way out of it.
-template <class T>
+template <class T, class Observer = Unseen>
 Crossing<Wide<T>> crossing_from_outside(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                        const Departure& from, bool left, const Asking<T>& asking = {});
+                                        const Departure& from, bool left, const Asking<T>& asking = {},
+                                        Observer observer = {});
 
 // How deep a point lies inside a closed primitive, to first order near its surface; negative outside.
 double depth_of(const Geometry& geometry, const Primitive& primitive, const Vec3d& p);

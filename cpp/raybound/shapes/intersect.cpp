@@ -4,6 +4,12 @@
 #include "raybound/shapes/hit_point.h"
 #include "raybound/shapes/mesh_hit.h"
 
+#ifdef RAYBOUND_COUNTED  // by intersect_counted.cpp
+#define RAYBOUND_OBSERVER Counted
+#else
+#define RAYBOUND_OBSERVER Unseen
+#endif
+
 namespace raybound {
 
 namespace {
@@ -42,12 +48,12 @@ Crossing<W> cross_csg(const Geometry& geometry, std::uint32_t root, const Ray<W>
 
 }  // namespace
 
-template <class T>
+template <class T, class Observer>
 Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                 const Asking<T>& asking) {
+                                 const Asking<T>& asking, Observer observer) {
     if (primitive.is_csg) return cross_csg(geometry, primitive.root, ray.wide);
     if (geometry.leaves[primitive.root].kind == LeafKind::mesh)
-        return cross_mesh<T>(geometry, primitive.root, ray.wide, asking.t_max, asking.brute_force);
+        return cross_mesh<T>(geometry, primitive.root, ray.wide, asking.t_max, asking.brute_force, observer);
     if constexpr (!std::is_same_v<T, Wide<T>>)
         if (!asking.filtered && none(may_cross(geometry, geometry.leaves[primitive.root], ray.narrow)))
             return {infinity<Wide<T>>, 0, 0, 0, false, false};
@@ -68,25 +74,14 @@ Mask<T> is_before_end(const Geometry& geometry, const Crossing<Wide<T>>& crossin
            end;
 }
 
-template <class T>
+template <class T, class Observer>
 Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray, const Asking<T>& asking,
-               Blocking* how) {
+               Blocking* how, Observer observer) {
     if (!primitive.is_csg && geometry.leaves[primitive.root].kind == LeafKind::mesh)
-        return mesh_blocks<T>(geometry, primitive.root, ray.wide, certain_end(ray), asking.brute_force, how);
-    const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, ray, asking);
+        return mesh_blocks<T>(geometry, primitive.root, ray.wide, certain_end(ray), asking.brute_force, how, observer);
+    const Crossing<Wide<T>> crossing = first_crossing(geometry, primitive, ray, asking, observer);
     if (how) how->entering = crossing.entering;
     return is_before_end(geometry, crossing, ray);
-}
-
-bool coincide(const Geometry& geometry, const Crossing<double>& a, const Crossing<double>& b, const Ray<double>& ray) {
-    const auto error = [&](const Crossing<double>& c) {
-        const Leaf& leaf = geometry.leaves[c.leaf];
-        const Surface<double> surface =
-            leaf_surface(geometry, leaf, c.face, ray.origin + ray.direction * c.t, ray.direction);
-        const Vec3d normal = unit_normal(geometry, leaf, surface, ray.direction);
-        return crossing_error<double>(geometry, {leaf, c.face, c.t, c.entering}, ray, surface, normal);
-    };
-    return abs(a.t - b.t) <= error(a) + error(b);
 }
 
 // Eight bounds instead of one, so that a ray sent back through the surface certainly has it ahead (D3, D8); and 2^-20
@@ -138,24 +133,39 @@ PlainPoint<T> estimate_point(const Geometry& geometry, const Crossing<Wide<T>>& 
     return {p, leaf.is_complement ? -normal : normal};
 }
 
+// The number types that rays are traced with today. (float filters and shades, double decides.)
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&,
+                                         RAYBOUND_OBSERVER);
+template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&,
+                                         const Asking<double>&, RAYBOUND_OBSERVER);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&, Blocking*,
+                     RAYBOUND_OBSERVER);
+template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&, Blocking*,
+                     RAYBOUND_OBSERVER);
+#ifndef RAYBOUND_COUNTED
+template bool is_before_end(const Geometry&, const Crossing<double>&, const WideRay<float>&);
+template bool is_before_end(const Geometry&, const Crossing<double>&, const WideRay<double>&);
+template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
+template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
+template PlainPoint<float> estimate_point(const Geometry&, const Crossing<double>&, const Ray<float>&);
+template PlainPoint<double> estimate_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
+
+bool coincide(const Geometry& geometry, const Crossing<double>& a, const Crossing<double>& b, const Ray<double>& ray) {
+    const auto error = [&](const Crossing<double>& c) {
+        const Leaf& leaf = geometry.leaves[c.leaf];
+        const Surface<double> surface =
+            leaf_surface(geometry, leaf, c.face, ray.origin + ray.direction * c.t, ray.direction);
+        const Vec3d normal = unit_normal(geometry, leaf, surface, ray.direction);
+        return crossing_error<double>(geometry, {leaf, c.face, c.t, c.entering}, ray, surface, normal);
+    };
+    return abs(a.t - b.t) <= error(a) + error(b);
+}
+
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward) {
     if (primitive.is_csg) return false;
     const Leaf& leaf = geometry.leaves[primitive.root];
     return leaf.kind != LeafKind::mesh && leaf.kind != LeafKind::quadric && (outward || is_sheet(leaf));
 }
-
-// The number types that rays are traced with today. (float filters and shades, double decides.)
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<float>&,
-                                         const Asking<float>&);
-template Crossing<double> first_crossing(const Geometry&, const Primitive&, const WideRay<double>&,
-                                         const Asking<double>&);
-template bool is_before_end(const Geometry&, const Crossing<double>&, const WideRay<float>&);
-template bool is_before_end(const Geometry&, const Crossing<double>&, const WideRay<double>&);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<float>&, const Asking<float>&, Blocking*);
-template bool blocks(const Geometry&, const Primitive&, const WideRay<double>&, const Asking<double>&, Blocking*);
-template SurfacePoint<float> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
-template SurfacePoint<double> surface_point(const Geometry&, const Crossing<double>&, const Ray<double>&, Wanted);
-template PlainPoint<float> estimate_point(const Geometry&, const Crossing<double>&, const Ray<float>&);
-template PlainPoint<double> estimate_point(const Geometry&, const Crossing<double>&, const Ray<double>&);
+#endif
 
 }  // namespace raybound

@@ -45,9 +45,10 @@ struct Asking {
     T t_max = infinity<T>;     // nothing beyond is of interest
 };
 
-template <class T>
+// (`observer` sees what is visited within a mesh.)
+template <class T, class Observer = Unseen>
 Crossing<Wide<T>> first_crossing(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-                                 const Asking<T>& asking = {});
+                                 const Asking<T>& asking = {}, Observer observer = {});
 
 // Does a crossing lie certainly before the ray's target, if it has one?
 template <class T>
@@ -59,9 +60,9 @@ struct Blocking {
 };
 
 // Does the primitive block the ray, certainly after its origin and certainly before its target, if it has one?
-template <class T>
+template <class T, class Observer = Unseen>
 Mask<T> blocks(const Geometry& geometry, const Primitive& primitive, const WideRay<T>& ray,
-               const Asking<T>& asking = {}, Blocking* how = nullptr);
+               const Asking<T>& asking = {}, Blocking* how = nullptr, Observer observer = {});
 
 // Do two crossings of a ray lie within their errors of each other, those of the surfaces as described included?
 bool coincide(const Geometry& geometry, const Crossing<double>& a, const Crossing<double>& b, const Ray<double>& ray);

@@ -72,27 +72,29 @@ inline FaceCrossing<T> cross_lane(const TrianglePack& pack, int lane, const Mesh
 // Calls visit(pack) for the packs that the ray may meet; with brute force, for all.
 template <class T, class Visit>
 inline void visit_packs(const MeshData& mesh, const MeshRay<T>& ray, T& t_max, bool brute_force, const Visit& visit) {
-    if (!brute_force)
-        return mesh.bvh().traverse(ray.slabs, t_max, [&](std::uint32_t pack, T) { visit(mesh.packs()[pack]); });
+    const auto visit_pack = [&](std::uint32_t pack, T) { visit(mesh.packs()[pack]); };
+    if (!brute_force) return mesh.bvh().traverse(ray.slabs, t_max, observed(visit_pack, observer_of(visit)));
     for (const TrianglePack& pack : mesh.packs()) visit(pack);
 }
 
 // The first crossing, by (t, face), among those not beyond t_max. Its t includes the clamp to the entry: what is beyond
 // t_max by it is out whether this mesh is asked before the object that set t_max or after.
-template <class T>
+template <class T, class Observer>
 inline Crossing<double> cross_mesh(const Geometry& geometry, std::uint32_t index, const Ray<double>& world, T t_max,
-                                   bool brute_force) {
+                                   bool brute_force, Observer observer) {
     const Leaf& leaf = geometry.leaves[index];
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
     const MeshRay<T> ray(geometry, leaf, world);
     FaceCrossing<T> best{infinity<double>, infinity<double>, t_max, 0, false, false};
-    visit_packs(mesh, ray, best.rounded, brute_force, [&](const TrianglePack& pack) {
+    const auto visit = [&](const TrianglePack& pack) {
+        observer.primitive();
         for (std::uint32_t lanes = may_cross(pack, ray.packs, best.rounded); lanes != 0;) {
             const FaceCrossing<T> found = cross_lane(pack, bvh::take_lowest(lanes), ray, best.rounded);
             if (!found.hit || found.rounded > best.rounded) continue;
             if (!best.hit || found.rounded < best.rounded || found.face < best.face) best = found;
         }
-    });
+    };
+    visit_packs(mesh, ray, best.rounded, brute_force, observed(visit, observer));
     const double t = T(best.t) < best.rounded ? double(best.rounded) : best.t;
     return {t, index, best.face, 0, best.hit, best.entering};
 }
@@ -105,15 +107,16 @@ inline double line_error(const Geometry& geometry, const Leaf& leaf) {
 }
 
 // Does any triangle block: certainly ahead, and certainly before `end`?
-template <class T>
+template <class T, class Observer>
 inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray<double>& world, double end,
-                        bool brute_force, Blocking* how) {
+                        bool brute_force, Blocking* how, Observer observer) {
     const Leaf& leaf = geometry.leaves[index];
     const MeshData& mesh = *geometry.meshes[leaf.polygon].data;
     const MeshRay<T> ray(geometry, leaf, world);
     const T reach = T(end) * T(1 + 0x1p-10);
     const double surely_before = end / (1 + 0x1p-20 + line_error(geometry, leaf));
     const auto blocked_by = [&](const TrianglePack& pack) {
+        observer.primitive();
         for (std::uint32_t lanes = may_cross(pack, ray.packs, reach); lanes != 0;) {
             const FaceCrossing<T> found = cross_lane(pack, bvh::take_lowest(lanes), ray, reach);
             if (!found.hit || !(found.t < end)) continue;
@@ -124,7 +127,9 @@ inline bool mesh_blocks(const Geometry& geometry, std::uint32_t index, const Ray
         return false;
     };
     if (!brute_force)
-        return mesh.bvh().any(ray.slabs, reach, [&](std::uint32_t pack, T) { return blocked_by(mesh.packs()[pack]); });
+        return mesh.bvh().any(
+            ray.slabs, reach,
+            observed([&](std::uint32_t pack, T) { return blocked_by(mesh.packs()[pack]); }, observer));
     return std::ranges::any_of(mesh.packs(), blocked_by);
 }
 

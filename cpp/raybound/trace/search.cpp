@@ -1,5 +1,11 @@
 #include "raybound/trace/search.h"
 
+#ifdef RAYBOUND_COUNTED  // by search_counted.cpp
+#define RAYBOUND_OBSERVER Counted
+#else
+#define RAYBOUND_OBSERVER Unseen
+#endif
+
 namespace raybound {
 
 namespace {
@@ -15,17 +21,21 @@ bool visit_all(const Geometry& geometry, const Ray<T>& ray, const T& t_max, cons
     return false;
 }
 
+}  // namespace
+
 // One search for the closest hit.
-template <class T>
+template <class T, class Observer>
 class Search {
   public:
-    Search(const Snapshot& scene, const WideRay<T>& ray, const Departure& from, Acceleration acceleration)
+    Search(const Snapshot& scene, const WideRay<T>& ray, const Departure& from, Acceleration acceleration,
+           Observer observer)
         : scene_(scene),
           geometry_(scene.geometry()),
           ray_(ray),
           from_(from),
           brute_force_(acceleration == Acceleration::brute_force),
-          gone_(gone_for_good(geometry_, from)) {}
+          gone_(gone_for_good(geometry_, from)),
+          observer_(observer) {}
 
     Nearest<T> run(const Bvh::Frontier* frontier) {
         for (;;) {
@@ -48,7 +58,7 @@ class Search {
             return false;
         };
         if (!brute_force_)
-            scene_.accelerator().traverse(geometry_, ray_.narrow, best_.t, visit, frontier);
+            scene_.accelerator().traverse(geometry_, ray_.narrow, best_.t, observed(visit, observer_), frontier);
         else
             visit_all(geometry_, ray_.narrow, best_.t, visit);
         if (!best_.hit) best_ = exit_;
@@ -56,8 +66,9 @@ class Search {
 
     void leave() {
         const Asking<T> asking{false, brute_force_, infinity<T>};
+        observer_.primitive();
         exit_.crossing =
-            crossing_from_inside(geometry_, geometry_.primitives[from_.within], ray_, from_, asking);
+            crossing_from_inside(geometry_, geometry_.primitives[from_.within], ray_, from_, asking, observer_);
         exit_.t = T(exit_.crossing.t);
         exit_.primitive = from_.within;
         exit_.hit = exit_.t < infinity<T>;
@@ -90,8 +101,8 @@ class Search {
         const Asking<T> asking{filtered, brute_force_, best_.t};
         const bool left = index == from_.left && is_closed(geometry_, primitive);
         if (left || (careful_count_ != 0 && is_careful(index)))
-            return crossing_from_outside(geometry_, primitive, ray_, from_, left, asking);
-        return first_crossing(geometry_, primitive, ray_, asking);
+            return crossing_from_outside(geometry_, primitive, ray_, from_, left, asking, observer_);
+        return first_crossing(geometry_, primitive, ray_, asking, observer_);
     }
 
     Rank rank_of(std::uint32_t primitive, const Crossing<Wide<T>>& c) const {
@@ -100,7 +111,9 @@ class Search {
 
     // Takes the primitive's crossing if it comes first. A crossing cannot lie before the entry into the primitive's
     // box: the clamp makes that true of rounded numbers too, so that a traversal ordered by entries misses nothing.
-    void consider(std::uint32_t index, T entry, bool filtered) {
+    // (Not inlined, so that traversals stay small.)
+    [[gnu::noinline]] void consider(std::uint32_t index, T entry, bool filtered) {
+        observer_.primitive();
         const Crossing<Wide<T>> crossing = crossing_of(index, filtered);
         if (!crossing.hit) return;
         const T t = maximum(T(crossing.t), entry);
@@ -140,35 +153,42 @@ class Search {
     T doubtful_from_ = infinity<T>;  // from here on a crossing may be where the ray leaves
     std::uint32_t careful_[most_careful];
     int careful_count_ = 0;
+    [[no_unique_address]] Observer observer_;
 };
 
 // Is there anything between the ray's origin and its end?
-template <class T>
+template <class T, class Observer>
 class BlockerSearch {
   public:
-    BlockerSearch(const Snapshot& scene, const WideRay<T>& ray, const Departure& from, Acceleration acceleration)
+    BlockerSearch(const Snapshot& scene, const WideRay<T>& ray, const Departure& from, Acceleration acceleration,
+                  Observer observer)
         : geometry_(scene.geometry()),
           ray_(ray),
           from_(from),
           brute_force_(acceleration == Acceleration::brute_force),
-          gone_(gone_for_good(geometry_, from)) {}
+          gone_(gone_for_good(geometry_, from)),
+          observer_(observer) {}
 
     bool is_within_blocked() const {
         if (from_.within == Departure::none) return false;
         const Primitive& primitive = geometry_.primitives[from_.within];
-        return is_before_end(geometry_, crossing_from_inside(geometry_, primitive, ray_, from_, asking(false)), ray_);
+        observer_.primitive();
+        return is_before_end(
+            geometry_, crossing_from_inside(geometry_, primitive, ray_, from_, asking(false), observer_), ray_);
     }
 
     bool is_blocked_by(std::uint32_t index, bool filtered) const {
         if (index == from_.within || index == gone_) return false;
+        observer_.primitive();
         const Primitive& primitive = geometry_.primitives[index];
         const bool left = index == from_.left;
         Blocking how;
-        if (!blocks(geometry_, primitive, ray_, asking(filtered), &how)) return false;
+        if (!blocks(geometry_, primitive, ray_, asking(filtered), &how, observer_)) return false;
         if (how.entering && !left) return true;
         if (!is_closed(geometry_, primitive) || !(left || may_begin_in(primitive))) return true;
         return is_before_end(
-            geometry_, crossing_from_outside(geometry_, primitive, ray_, from_, left, asking(filtered)), ray_);
+            geometry_, crossing_from_outside(geometry_, primitive, ray_, from_, left, asking(filtered), observer_),
+            ray_);
     }
 
   private:
@@ -187,76 +207,21 @@ class BlockerSearch {
     const Departure& from_;
     bool brute_force_;
     std::uint32_t gone_;
+    [[no_unique_address]] Observer observer_;
 };
 
-}  // namespace
-
-template <class T>
-Departures departures(const Geometry& geometry, const Nearest<T>& nearest) {
-    const std::uint32_t none = Departure::none, here = nearest.primitive, within = nearest.within;
-    const std::uint32_t leaf = nearest.crossing.leaf;
-    const std::int32_t face = nearest.crossing.face;
-    if (!is_closed(geometry, geometry.primitives[here])) {
-        const Departure both{within, here, leaf, face};
-        return {both, both};
-    }
-    if (nearest.crossing.entering)
-        return {{within, here, leaf, face}, {here, nearest.touching ? within : none, leaf, face}};
-    return {{here, none, leaf, face}, {within == here ? none : within, here, leaf, face}};
-}
-
-std::uint32_t gone_for_good(const Geometry& geometry, const Departure& from) {
-    if (from.left == Departure::none) return Departure::none;
-    return is_left_for_good(geometry, geometry.primitives[from.left], true) ? from.left : Departure::none;
-}
-
-void visit_containing(const Snapshot& scene, const Vec3f& point, const std::function<void(std::uint32_t)>& visit) {
-    const Geometry& geometry = scene.geometry();
-    const auto holds = [&](const auto& plane, Pack<float>& near) {
-        using P = Pack<float>;
-        near = P(0.0f);
-        auto inside = (plane(0) <= P(point.x)) & (P(point.x) <= plane(3));
-        inside = inside & (plane(1) <= P(point.y)) & (P(point.y) <= plane(4));
-        return bits(inside & (plane(2) <= P(point.z)) & (P(point.z) <= plane(5)));
-    };
-    scene.accelerator().bvh().visit(
-        holds, [] { return infinity<float>; },
-        [&](std::uint32_t leaf, float) {
-            scene.accelerator().visit_primitives(leaf, [&](std::uint32_t index) {
-                const Primitive& primitive = geometry.primitives[index];
-                for (int i = 0; i < 3; ++i)
-                    if (!(primitive.bounds.lower[i] <= point[i] && point[i] <= primitive.bounds.upper[i])) return;
-                if (is_closed(geometry, primitive) && contains(geometry, primitive, Vec3d(point))) visit(index);
-            });
-        });
-}
-
-Departure departure_at(const Snapshot& scene, const Vec3f& origin) {
-    Departure from;
-    int count = 0;
-    visit_containing(scene, origin, [&](std::uint32_t primitive) { from.within = primitive, ++count; });
-    if (count > 1) from.within = Departure::none;
-    return from;
-}
-
-template <class T>
-T outside_ior(const Snapshot& scene, const Nearest<T>& nearest) {
-    if (!nearest.touching) return T(1);
-    return T(scene.objects()[scene.geometry().primitives[nearest.within].object].material->ior);
-}
-
-template <class T>
+template <class T, class Observer>
 Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed,
-                       Acceleration acceleration, const Bvh::Frontier* from) {
-    return Search<T>(scene, ray, departed, acceleration).run(from);
+                       Acceleration acceleration, const Bvh::Frontier* from, Observer observer) {
+    return Search<T, Observer>(scene, ray, departed, acceleration, observer).run(from);
 }
 
-template <class T>
+template <class T, class Observer>
 bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed, std::int32_t* blocker,
-                Acceleration acceleration, std::uint32_t* last) {
+                Acceleration acceleration, std::uint32_t* last, Observer observer) {
     const Geometry& geometry = scene.geometry();
     const T reach = ray.narrow.has_target ? ray.narrow.t_max * T(1 + 0x1p-10) : infinity<T>;
-    const BlockerSearch<T> search(scene, ray, departed, acceleration);
+    const BlockerSearch<T, Observer> search(scene, ray, departed, acceleration, observer);
     if (search.is_within_blocked()) {
         if (blocker) *blocker = scene.objects()[geometry.primitives[departed.within].object].id;
         return true;
@@ -274,29 +239,27 @@ bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, const Departure& d
             return true;
     }
     if (acceleration != Acceleration::brute_force)
-        return scene.accelerator().any(geometry, ray.narrow, reach, visit);
+        return scene.accelerator().any(geometry, ray.narrow, reach, observed(visit, observer));
     return visit_all(geometry, ray.narrow, reach, visit);
 }
 
+template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, const Departure&, Acceleration,
+                                    const Bvh::Frontier*, RAYBOUND_OBSERVER);
+template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, const Departure&, Acceleration,
+                                     const Bvh::Frontier*, RAYBOUND_OBSERVER);
+template bool is_blocked(const Snapshot&, const WideRay<float>&, const Departure&, std::int32_t*, Acceleration,
+                         std::uint32_t*, RAYBOUND_OBSERVER);
+template bool is_blocked(const Snapshot&, const WideRay<double>&, const Departure&, std::int32_t*, Acceleration,
+                         std::uint32_t*, RAYBOUND_OBSERVER);
+
+#ifndef RAYBOUND_COUNTED
 bool is_blocked_by(const Snapshot& scene, const WideRay<float>& ray, const Departure& departed,
                    std::uint32_t primitive) {
-    return BlockerSearch<float>(scene, ray, departed, Acceleration::bvh).is_blocked_by(primitive, false);
+    return BlockerSearch<float, Unseen>(scene, ray, departed, Acceleration::bvh, {}).is_blocked_by(primitive, false);
 }
 bool is_blocked_from_inside(const Snapshot& scene, const WideRay<float>& ray, const Departure& departed) {
-    return BlockerSearch<float>(scene, ray, departed, Acceleration::bvh).is_within_blocked();
+    return BlockerSearch<float, Unseen>(scene, ray, departed, Acceleration::bvh, {}).is_within_blocked();
 }
-
-template Departures departures(const Geometry&, const Nearest<float>&);
-template Departures departures(const Geometry&, const Nearest<double>&);
-template float outside_ior(const Snapshot&, const Nearest<float>&);
-template double outside_ior(const Snapshot&, const Nearest<double>&);
-template Nearest<float> closest_hit(const Snapshot&, const WideRay<float>&, const Departure&, Acceleration,
-                                    const Bvh::Frontier*);
-template Nearest<double> closest_hit(const Snapshot&, const WideRay<double>&, const Departure&, Acceleration,
-                                     const Bvh::Frontier*);
-template bool is_blocked(const Snapshot&, const WideRay<float>&, const Departure&, std::int32_t*, Acceleration,
-                         std::uint32_t*);
-template bool is_blocked(const Snapshot&, const WideRay<double>&, const Departure&, std::int32_t*, Acceleration,
-                         std::uint32_t*);
+#endif
 
 }  // namespace raybound

@@ -49,10 +49,12 @@ inline WideRay<T> ray_to_light(const Vec3<T>& origin, const Light& light) {
 
 enum class Acceleration { bvh, brute_force };
 
-// `from`: where the search may begin, for a ray of a bundle that it was found for.
-template <class T>
+// `from`: where the search may begin, for a ray of a bundle that it was found for. `observer` is told what the search
+// visits (a primitive is an object, or eight triangles of a mesh).
+template <class T, class Observer = Unseen>
 Nearest<T> closest_hit(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed = {},
-                       Acceleration acceleration = Acceleration::bvh, const Bvh::Frontier* from = nullptr);
+                       Acceleration acceleration = Acceleration::bvh, const Bvh::Frontier* from = nullptr,
+                       Observer observer = {});
 
 // Does one primitive block the ray, as a search for blockers would find?
 bool is_blocked_by(const Snapshot& scene, const WideRay<float>& ray, const Departure& departed,
@@ -63,8 +65,8 @@ bool is_blocked_from_inside(const Snapshot& scene, const WideRay<float>& ray, co
 // Something opaque lies certainly between the ray's origin and its end; `blocker` (may be null) is told which object.
 // `last` (may be null) is a primitive to ask first, and is told which one has blocked: rays to one light from points
 // side by side are mostly blocked by the same.
-template <class T>
+template <class T, class Observer = Unseen>
 bool is_blocked(const Snapshot& scene, const WideRay<T>& ray, const Departure& departed, std::int32_t* blocker,
-                Acceleration acceleration = Acceleration::bvh, std::uint32_t* last = nullptr);
+                Acceleration acceleration = Acceleration::bvh, std::uint32_t* last = nullptr, Observer observer = {});
 
 }  // namespace raybound

@@ -17,7 +17,7 @@ import numpy as np
 from .. import reporting, scenes
 from ..floats import OFFSETS, PRECISIONS
 from ..scenes import HARD_CASES
-from . import error_seams, error_speed
+from . import error_seams, error_speed, error_visits
 from .error_bodies import Rng, bodies
 from .error_probe import Policy, probe
 from .error_rays import rays_at
@@ -39,7 +39,7 @@ def measure(*, names: Sequence[str] | None = None, rays: int = 32, repeat: int =
     Returns a JSON-ready dictionary: "machine" (as `report`), the arguments, "totals", "kinds" and "cases" with the
     summaries of `error_tally.Tally` by precision and offsets ("totals"), before that by kind ("kinds"), and before that
     by case ("cases", each with its "scales" and "seams": by precision, rays at shared edges and how many met nothing);
-    "speed" (`error_speed.measure`), in nanoseconds; and "left_out", which is empty.
+    "speed" (`error_speed.measure`), in nanoseconds; "visits" (`error_visits.measure`); and "left_out", which is empty.
     """
     chosen = list(HARD_CASES) if names is None else list(names)
     for name in chosen:
@@ -67,6 +67,7 @@ def measure(*, names: Sequence[str] | None = None, rays: int = 32, repeat: int =
         **_by_kind(overall),
         "cases": cases,
         "speed": error_speed.measure(chosen, repeat),
+        "visits": error_visits.measure(chosen),
         "left_out": {},
     }
 

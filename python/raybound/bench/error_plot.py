@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = {"bounded": "#1f4e9c", "epsilon": "#d62728", "scaled-epsilon": "#ff9f4a"}
+COLOURS = {"bounded": "#1f4e9c", "epsilon": "#d62728", "scaled-epsilon": "#ff9f4a", "whole-epsilon": "#8c564b"}
 MARKERS = {"float32": "o", "float64": "s"}
 FLOOR = 1e-6  # shares below are drawn on the line "none"
 

@@ -57,7 +57,7 @@ def probe(body: Body, rays: Rays, policy: Policy, scene_size: float, rng: Rng) -
         if len(hits):
             _offsets(tally, body, policy, hits, scene_size)
             if policy.offsets == "bounded":
-                _bounds(tally, body, rays.origins[hit], rays.directions[hit], hits)
+                _bounds(tally, body, policy, rays.origins[hit], rays.directions[hit], hits)
             _send_back(tally, body, policy, rays.origins[hit], rays.directions[hit], hits, inner)
             leaving = _leaving(rng, hits, inner)
             _leave(tally, body, policy, leaving)
@@ -76,26 +76,49 @@ def _has_nan(hits: Hits) -> Flags:
 def _offsets(tally: Tally, body: Body, policy: Policy, hits: Hits, scene_size: float) -> None:
     """How far origins are from the points, in ulps of the largest coordinate and relative to the scene."""
     moved = np.abs(hits["next_origin"] - hits["point"]).max(axis=1)
-    reach = np.maximum(np.abs(hits["point"]).max(axis=1), body.reach)
     kept = np.isfinite(moved)
-    ulp = np.spacing(reach.astype(policy.precision)).astype(np.float64)
-    tally.sample("offset_ulp", (moved / ulp)[kept])
+    tally.sample("offset_ulp", (moved / _ulp(body, policy, hits))[kept])
     tally.sample("offset_relative", (moved / scene_size)[kept])
 
 
-def _bounds(tally: Tally, body: Body, origins: Doubles, directions: Doubles, hits: Hits) -> None:
-    """Bounds over true errors: of t, and of the point along its normal, which is how far an origin must move."""
-    faces, normals = hits["face_id"], hits["normal"]
-    t_error = _distance(body, faces, origins, directions, hits["t"])
-    point_error = _distance(body, faces, hits["point"], normals, np.zeros(len(hits)))
-    point_bound = np.sum(np.abs(normals) * hits["point_error"], axis=1)
-    unknown = ~(point_error <= point_bound)
-    unknown[unknown] = ~_holds_surface(body, hits[unknown])
-    tally.count(bounds=2 * len(hits), broken=unknown)
+def _ulp(body: Body, policy: Policy, hits: Hits) -> Doubles:
+    """The distance between numbers at the largest coordinate."""
+    reach = np.maximum(np.abs(hits["point"]).max(axis=1), body.reach)
+    return np.asarray(np.spacing(reach.astype(policy.precision)), np.float64)
+
+
+def _bounds(tally: Tally, body: Body, policy: Policy, origins: Doubles, directions: Doubles, hits: Hits) -> None:
+    """Bounds over true errors: of t, and of the point along its normal, which is how far an origin must move; and the
+    same of the point that has a closed form.
+    """
+    t_error = _distance(body, hits["face_id"], origins, directions, hits["t"])
+    broken = _point_bounds(tally, body, policy, hits, "point")
+    tally.count(bounds=2 * len(hits), broken=broken)
     tally.count(broken=~(t_error <= hits["t_error"]))
-    for name, error, bound in (("t_ratio", t_error, hits["t_error"]), ("point_ratio", point_error, point_bound)):
-        real = (error > 0) & (error <= bound)
-        tally.sample(name, bound[real] / error[real])
+    _sample_ratio(tally, "t_ratio", t_error, hits["t_error"])
+    forms = _core.closed_forms(body.shape._native, origins, directions, policy.precision == "float64")
+    known, closed = forms["known"], hits.copy()
+    for name in ("point", "point_error"):
+        closed[name] = forms[name]
+    tally.count(closed=known, own_broken=broken & known)
+    tally.count(closed_broken=_point_bounds(tally, body, policy, closed[known], "closed"))
+
+
+def _point_bounds(tally: Tally, body: Body, policy: Policy, hits: Hits, name: str) -> Flags:
+    """Samples the bounds of points along their normals, in ulps and over the true error; which ones are below it."""
+    error = _distance(body, hits["face_id"], hits["point"], hits["normal"], np.zeros(len(hits)))
+    bound = np.sum(np.abs(hits["normal"]) * hits["point_error"], axis=1)
+    broken: Flags = ~(error <= bound)
+    broken[broken] = ~_holds_surface(body, hits[broken])
+    _sample_ratio(tally, f"{name}_ratio", error, bound)
+    kept = np.isfinite(bound)
+    tally.sample(f"{name}_ulp", (bound / _ulp(body, policy, hits))[kept])
+    return broken
+
+
+def _sample_ratio(tally: Tally, name: str, error: Doubles, bound: Doubles) -> None:
+    real = (error > 0) & (error <= bound)
+    tally.sample(name, bound[real] / error[real])
 
 
 def _distance(body: Body, faces: Any, p: Doubles, d: Doubles, t: Doubles) -> Doubles:

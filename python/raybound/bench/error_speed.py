@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _core, scenes
+from ..scene import Scene
 from .error_exact import Doubles
 from .yardstick import pinned
 
@@ -19,14 +20,20 @@ WAYS = (
     ("bounded", "float32", True),
     ("epsilon", "float32", False),
     ("scaled-epsilon", "float32", False),
+    ("whole-epsilon", "float32", False),
     ("bounded", "float64", True),
     ("epsilon", "float64", False),
     ("scaled-epsilon", "float64", False),
+    ("whole-epsilon", "float64", False),
     ("epsilon", "float32", True),
     ("scaled-epsilon", "float32", True),
+    ("whole-epsilon", "float32", True),
     ("bounded", "float32", False),
 )
 Way = tuple[str, str, bool]
+YARDSTICKS = tuple(
+    way for way in WAYS if way[0] != "bounded" and way[1] == "float32"
+)  # what all ways are compared with
 
 
 def measure(names: Sequence[str], repeat: int) -> dict[str, Any]:
@@ -41,13 +48,19 @@ def measure(names: Sequence[str], repeat: int) -> dict[str, Any]:
 def _case(name: str, repeat: int) -> dict[str, list[float]]:
     """Nanoseconds a ray, for each of `WAYS`: of each round, after one that is not counted."""
     scene = scenes.hard_case(name)
+    origins, directions = eye_rays(scene)
+    snapshot = scene._document.snapshot()
+    rounds = [[_once(snapshot, origins, directions, way) for way in WAYS] for _ in range(repeat + 1)][1:]
+    return {key(way): [times[i] for times in rounds] for i, way in enumerate(WAYS)}
+
+
+def eye_rays(scene: Scene) -> tuple[Doubles, Doubles]:
+    """Origins and directions (n, 3) of a small picture of a scene."""
     if scene.camera is None:
         raise ValueError("bench: the scene has no camera")
     rays = scene.camera.replace(width=WIDTH, height=HEIGHT).rays()
     origins, directions = (np.asarray(part, np.float64).reshape(-1, 3) for part in rays)
-    snapshot = scene._document.snapshot()
-    rounds = [[_once(snapshot, origins, directions, way) for way in WAYS] for _ in range(repeat + 1)][1:]
-    return {key(way): [times[i] for times in rounds] for i, way in enumerate(WAYS)}
+    return origins, directions
 
 
 def _once(snapshot: _core.Snapshot, origins: Doubles, directions: Doubles, way: Way) -> float:
@@ -63,12 +76,11 @@ def key(way: Way) -> str:
 
 
 def _over_cases(by_case: dict[str, dict[str, list[float]]], way: Way) -> dict[str, Any]:
-    """The geometric mean of the cases' medians, and of their median ratios to both epsilons in the same rounds."""
+    """The geometric mean of the cases' medians, and of their median ratios to the epsilons in the same rounds."""
     offsets, precision, skips = way
     result: dict[str, Any] = {"offsets": offsets, "precision": precision, "skips": skips}
     result["ns_per_ray"] = statistics.geometric_mean(statistics.median(times[key(way)]) for times in by_case.values())
-    for name, skipping in (("epsilon", False), ("scaled-epsilon", False), ("epsilon", True), ("scaled-epsilon", True)):
-        other = key((name, "float32", skipping))
+    for other in map(key, YARDSTICKS):
         ratios = [
             statistics.median(a / b for a, b in zip(times[key(way)], times[other], strict=True))
             for times in by_case.values()

@@ -6,10 +6,13 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..floats import OFFSETS, PRECISIONS
-from .error_speed import of_way
+from .error_speed import WAYS, YARDSTICKS, Way, key, of_way
 from .tables import Table
 
 WORST = 8  # cases that the README shows
+# By kind of shape, the closed form of Physically Based Rendering 3.9.4.
+CLOSED_FORMS = {"sphere": "γ5", "cylinder": "γ3, caps 0", "disk": "0", "mesh": "γ7"}
+CLOSED_SAMPLES = ("point_ulp", "closed_ulp", "point_ratio", "closed_ratio")
 WRONG = {
     "self_hits": ("self_hits", "spawned"),
     "inner_hits": ("inner_hits", "entered"),
@@ -25,6 +28,8 @@ WRONG = {
 def tables(result: dict[str, Any]) -> Iterator[Table]:
     """Totals, speeds, then all hard cases and all kinds of shapes."""
     yield _totals(result)
+    yield _closed_forms(result)
+    yield _visits(result)
     yield _speeds(result)
     yield _by(result["cases"], "case", "By hard case: false self-intersections and leaks", list(result["cases"]))
     kinds = {kind: {"totals": found} for kind, found in result["kinds"].items()}
@@ -33,8 +38,10 @@ def tables(result: dict[str, Any]) -> Iterator[Table]:
 
 
 def readme_tables(result: dict[str, Any]) -> Iterator[Table]:
-    """Totals and the worst cases."""
+    """Totals, what bounds and spawned rays are beside the seeds', and the worst cases."""
     yield _totals(result)
+    yield _closed_forms(result)
+    yield _visits(result)
     worst = sorted(result["cases"], key=lambda name: -_worst(result["cases"][name]["totals"]["float32"]))[:WORST]
     yield _by(result["cases"], "case", "The worst hard cases: false self-intersections and leaks", worst)
 
@@ -89,12 +96,47 @@ def _cost(speed: dict[str, Any], offsets: str, precision: str) -> list[str]:
     return [f"{way['ns_per_ray']:.0f}", f"{way['over epsilon float32']:.2f}", fair]
 
 
+def _closed_forms(result: dict[str, Any]) -> Table:
+    """Our bounds of hit points beside the seeds'."""
+    rows = []
+    for kind, form in CLOSED_FORMS.items():
+        for precision in PRECISIONS:
+            found = result["kinds"].get(kind, {}).get(precision, {}).get("bounded")
+            if not found or not found["closed"]:
+                continue
+            sizes = [f"{found[name]['median']:.3g}" if found[name] else "-" for name in CLOSED_SAMPLES]
+            broken = [share(found["own_broken"], found["closed"]), share(found["closed_broken"], found["closed"])]
+            rows.append([f"{kind}, {precision}", form, str(found["closed"]), *sizes, *broken])
+    columns = ["closed form", "hits", "bound, ulp", "closed, ulp", "bound/error", "closed/error", "broken", "closed"]
+    title = (
+        "Bounds of hit points along the normal, medians, and how many are below the true error: ours, and closed forms"
+    )
+    return Table(title, ["shape", *columns], rows)
+
+
+def _visits(result: dict[str, Any]) -> Table:
+    """Nodes and primitives that spawned rays visit."""
+    visits = result["visits"]
+    rows = []
+    for way in WAYS:
+        counts = [found[key(way)] for found in visits.values()]
+        means = [f"{part[name] / max(1, part['spawned']):.2f}" for name in ("nodes", "primitives") for part in counts]
+        rows.append([_name(way), *means])
+    columns = [f"{name}, {where}" for name in ("nodes", "primitives") for where in visits]
+    return Table("What a spawned ray visits: nodes of hierarchies, and primitives asked", ["origins", *columns], rows)
+
+
+def _name(way: Way) -> str:
+    offsets, precision, skips = way
+    return f"{offsets}, {precision}{', skips' if skips else ''}"
+
+
 def _speeds(result: dict[str, Any]) -> Table:
     """All ways that were timed."""
-    over = ("epsilon float32", "scaled-epsilon float32", "epsilon float32 skips", "scaled-epsilon float32 skips")
+    over = [key(way) for way in YARDSTICKS]
     rows = [
         [
-            f"{way['offsets']}, {way['precision']}{', skips' if way['skips'] else ''}",
+            _name((way["offsets"], way["precision"], way["skips"])),
             f"{way['ns_per_ray']:.1f}",
             *(f"{way[f'over {other}']:.2f}" for other in over),
         ]

@@ -27,9 +27,12 @@ COUNTS = (
     "behind",  # of these, behind the origin
     "bounds",  # bounds that were compared with the true error
     "broken",  # of these, below it
+    "closed",  # hits of shapes with a closed form of the point's bound
+    "closed_broken",  # of these, where that form is below its point's true error
+    "own_broken",  # of these, where our bound is below ours
 )
 FAILURES = ("missed", "nans", "self_hits", "inner_hits", "leaks", "behind", "broken")
-SAMPLES = ("offset_ulp", "offset_relative", "point_ratio", "t_ratio")
+SAMPLES = ("offset_ulp", "offset_relative", "point_ratio", "t_ratio", "point_ulp", "closed_ulp", "closed_ratio")
 
 
 class Tally:

@@ -22,7 +22,7 @@ from .functions import (
 )
 from .interval import Interval
 from .linear_interval import LinearInterval
-from .running_error import RunningError
+from .running_error import RunningError, quadratic
 from .taylor_model import TaylorModel
 
 __all__ = [
@@ -41,6 +41,7 @@ __all__ = [
     "maximum",
     "minimum",
     "power",
+    "quadratic",
     "reciprocal",
     "rsqrt",
     "sin",

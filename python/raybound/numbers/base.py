@@ -152,12 +152,17 @@ class _NotOursError(TypeError):
     """An operand that is no number of any kind: another class may know what to do."""
 
 
-def apply(kind: str, name: str, records: Sequence[npt.NDArray[Any]], parameter: float = 0.0) -> npt.NDArray[Any]:
-    """An operation of the core on records of one kind, with broadcasting over all axes but the last."""
+def apply(
+    kind: str, name: str, records: Sequence[npt.NDArray[Any]], parameter: float = 0.0, width: int | None = None
+) -> npt.NDArray[Any]:
+    """An operation of the core on records of one kind, with broadcasting over all axes but the last.
+
+    `width`: of the results, if they are no records of the kind.
+    """
     shape = np.broadcast_shapes(*[r.shape[:-1] for r in records])
-    width = KINDS[kind][0]
-    whole = [np.ascontiguousarray(np.broadcast_to(r, (*shape, width))) for r in records]
-    return np.asarray(_core.apply(kind, name, whole, parameter)).reshape(*shape, width)
+    own = KINDS[kind][0]
+    whole = [np.ascontiguousarray(np.broadcast_to(r, (*shape, own))) for r in records]
+    return np.asarray(_core.apply(kind, name, whole, parameter)).reshape(*shape, width or own)
 
 
 def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
@@ -165,17 +170,29 @@ def operate(name: str, *operands: object, parameter: float = 0.0) -> Any:
 
     Raises TypeError for operands that do not go together.
     """
-    leader = max((item for item in operands if isinstance(item, Number)), key=lambda item: item._rank)
-    lifted = [leader._lift(item, name, "operand") for item in operands]
-    widest = max(lifted, key=lambda item: item._kind)  # "..._float64" after "..._float32"
-    if any(item._kind != widest._kind for item in lifted):
-        lifted = [widest._lift(item, name, "operand") for item in lifted]
+    lifted = together(name, *operands)
+    widest = lifted[0]
+    return widest._made(widest._kind, applied(name, lifted, parameter), widest)
+
+
+def applied(name: str, lifted: Sequence[Number], parameter: float = 0.0, width: int | None = None) -> npt.NDArray[Any]:
+    """`apply` to numbers of one kind; ValueError with their shapes if these do not go together."""
     try:
-        records = apply(widest._kind, name, [item._records for item in lifted], parameter)
+        return apply(lifted[0]._kind, name, [item._records for item in lifted], parameter, width)
     except ValueError as fault:
         shapes = " and ".join(str(item.shape) for item in lifted)
         raise ValueError(f"{name}: {fault} (shapes {shapes})") from None
-    return widest._made(widest._kind, records, widest)
+
+
+def together(who: str, *operands: object) -> list[Number]:
+    """The operands as numbers of one kind, the one that takes them all."""
+    leader = max((item for item in operands if isinstance(item, Number)), key=lambda item: item._rank)
+    lifted = [leader._lift(item, who, "operand") for item in operands]
+    widest = max(lifted, key=lambda item: item._kind)  # "..._float64" after "..._float32"
+    while any(item._kind != widest._kind for item in lifted):
+        lifted = [widest._lift(item, who, "operand") for item in lifted]
+        widest = max(lifted, key=lambda item: item._kind)
+    return lifted
 
 
 def plain(who: str, name: str, value: object, *, finite: bool = True, rounded: bool = False) -> npt.NDArray[Any]:
