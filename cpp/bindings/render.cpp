@@ -159,8 +159,8 @@ py::dict explain(const std::shared_ptr<Snapshot>& snapshot, const Camera& camera
     RayTreeNode root;
     {
         const py::gil_scoped_release released;
-        root = Tracer<float>(*snapshot, settings).ray_tree(camera.eye(), camera.direction<float>(x, y),
-                                                                departure_at(*snapshot, camera.eye()));
+        root = Tracer<float>(*snapshot, settings)
+                   .ray_tree(camera.eye(), camera.direction<float>(x, y), departure_at(*snapshot, camera.eye()));
     }
     return tree_dict(root);
 }

@@ -8,7 +8,20 @@ from typing import Any, NamedTuple
 from ._description import Place, arguments_of, check_keys, class_named, entries, make, pick
 from ._nest import Nest
 from .meshes import Mesh
-from .shapes import Box, Cone, Cylinder, Difference, Disk, Intersection, Polygon, Quadric, Shape, Sphere, Transformed, Union
+from .shapes import (
+    Box,
+    Cone,
+    Cylinder,
+    Difference,
+    Disk,
+    Intersection,
+    Polygon,
+    Quadric,
+    Shape,
+    Sphere,
+    Transformed,
+    Union,
+)
 from .transform import Transform
 
 SHAPES: dict[str, type[Shape]] = {

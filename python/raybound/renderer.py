@@ -291,9 +291,7 @@ class Renderer:
         rays = _validate.rays("Renderer.paths", origins, directions)
         with self._busy("paths"):
             snapshot = self._scene._document.snapshot()
-            return _core.paths(
-                snapshot, rays.origins, rays.ends, max_depth=self._max_depth, threads=self._threads
-            )
+            return _core.paths(snapshot, rays.origins, rays.ends, max_depth=self._max_depth, threads=self._threads)
 
     def linetrees(self, object: Object) -> npt.NDArray[np.void]:
         """The cells kept for an object, for pictures of the data structure: a structured array (n,).

@@ -9,7 +9,9 @@ N = float(np.float32(1.5))
 GLASS = rb.Material(0.0, transmit=1.0, ior=1.5)
 
 
-def exits(shape: rb.Shape, origins: np.ndarray, way: tuple[float, ...], depth: int = 8) -> tuple[np.ndarray, np.ndarray]:
+def exits(
+    shape: rb.Shape, origins: np.ndarray, way: tuple[float, ...], depth: int = 8
+) -> tuple[np.ndarray, np.ndarray]:
     """Where each ray leaves the glass for good, and its way then."""
     scene = rb.Scene()
     scene.add(shape, GLASS)
@@ -77,10 +79,13 @@ def test_the_least_deviation_of_a_prism(by_csg: bool) -> None:
 @pytest.mark.parametrize("as_mesh", [True, False])
 def test_a_corner_cube_sends_rays_back(as_mesh: bool) -> None:
     """Three total reflections turn any ray around."""
-    shape: rb.Shape = rb.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    shape: rb.Shape = rb.Mesh(
+        [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+    )
     if not as_mesh:
         slab = rb.Box((-4, -4, 0), (4, 4, 4)).transformed(
-            rb.Transform.translate(1 / 3, 1 / 3, 1 / 3) @ rb.Transform.rotate(np.degrees(np.arccos(3**-0.5)), (-1, 1, 0))
+            rb.Transform.translate(1 / 3, 1 / 3, 1 / 3)
+            @ rb.Transform.rotate(np.degrees(np.arccos(3**-0.5)), (-1, 1, 0))
         )
         shape = rb.Box((0, 0, 0), (1, 1, 1)) - slab
     rng = np.random.default_rng(6)

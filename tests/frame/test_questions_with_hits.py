@@ -223,11 +223,15 @@ def test_records_that_are_not_hits_of_the_scene() -> None:
 
 def test_shapes_that_do_not_broadcast() -> None:
     scene = ball_scene()
-    with pytest.raises(ValueError, match=r"Scene\.intersect: origins and directions must broadcast, got shapes \(2, 3\)"):
+    with pytest.raises(
+        ValueError, match=r"Scene\.intersect: origins and directions must broadcast, got shapes \(2, 3\)"
+    ):
         scene.intersect(np.ones((2, 3)), np.ones((3, 3)))
     with pytest.raises(ValueError, match=r"Scene\.occluded: origins and targets must broadcast"):
         scene.occluded(scene.intersect(-4 * np.eye(3), np.eye(3)), np.ones((2, 3)))
     with pytest.raises(ValueError, match=r"directions must be non-zero.* at index \(1, 0\)"):
         scene.intersect((0, 0, 0), [[(1, 0, 0)], [(0, 0, 0)]])
-    with pytest.raises(ValueError, match=r"Renderer\.trace: origins must be an array of numbers with shape \(\.\.\., 3\)"):
+    with pytest.raises(
+        ValueError, match=r"Renderer\.trace: origins must be an array of numbers with shape \(\.\.\., 3\)"
+    ):
         rb.Renderer(scene).trace((0, 0), (1, 0, 0))

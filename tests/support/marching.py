@@ -67,9 +67,7 @@ def mesh_of(vertices: Points, faces: npt.NDArray[np.int64]) -> tuple[rb.Shape, A
 
 
 BOX_EDGES = np.array(
-    [
-        [[a, b, -1], [a, b, 1]] for a in (-1, 1) for b in (-1, 1)
-    ]
+    [[[a, b, -1], [a, b, 1]] for a in (-1, 1) for b in (-1, 1)]
     + [[[a, -1, b], [a, 1, b]] for a in (-1, 1) for b in (-1, 1)]
     + [[[-1, a, b], [1, a, b]] for a in (-1, 1) for b in (-1, 1)],
     float,
@@ -218,7 +216,9 @@ class Chains:
     why: list[str]
 
 
-def march(scene: rb.Scene, origins: npt.NDArray[np.float32], directions: npt.NDArray[np.float32], longest: int = 60) -> Chains:
+def march(
+    scene: rb.Scene, origins: npt.NDArray[np.float32], directions: npt.NDArray[np.float32], longest: int = 60
+) -> Chains:
     """Straight through: each hit starts the next ray, along the same direction."""
     alive = np.arange(len(origins))
     inside = np.diff(scene.containing(origins)[1]) == 1

@@ -106,9 +106,16 @@ def touching(rng: Rng) -> list[rb.Shape]:
     if kind == 0:
         return [block, rb.Box(moved(-r / 2, -r, 0), moved(2 * r, r, r))]
     if kind == 1:
-        return [block, rb.Cylinder(moved(0, 0, 0), moved(0, 0, r), radius=r), rb.Cone(moved(0, 0, r), moved(0, 0, 2 * r), radius=r)]
+        return [
+            block,
+            rb.Cylinder(moved(0, 0, 0), moved(0, 0, r), radius=r),
+            rb.Cone(moved(0, 0, r), moved(0, 0, 2 * r), radius=r),
+        ]
     if kind == 2:
-        return [rb.Box(moved(-r, -r, -r), moved(r, r, r)) - rb.Sphere(moved(0, 0, 0), r * 0.8), rb.Sphere(moved(0, 0, 0), r * 0.8)]
+        return [
+            rb.Box(moved(-r, -r, -r), moved(r, r, r)) - rb.Sphere(moved(0, 0, 0), r * 0.8),
+            rb.Sphere(moved(0, 0, 0), r * 0.8),
+        ]
     if kind == 3:
         return [block, rb.Sphere(moved(0, 0, r), r)]
     if kind == 4:
@@ -118,7 +125,20 @@ def touching(rng: Rng) -> list[rb.Shape]:
         ball = rb.Sphere(moved(0, 0, 0), r)
         return [ball & block, ball - block]
     corners = np.array([[x, y, z] for x in (-r, r) for y in (-r, r) for z in (0, r)]) + at
-    faces = [[0, 2, 4], [4, 2, 6], [1, 5, 3], [5, 7, 3], [0, 4, 1], [4, 5, 1], [2, 3, 6], [6, 3, 7], [0, 1, 2], [2, 1, 3], [4, 6, 5], [6, 7, 5]]
+    faces = [
+        [0, 2, 4],
+        [4, 2, 6],
+        [1, 5, 3],
+        [5, 7, 3],
+        [0, 4, 1],
+        [4, 5, 1],
+        [2, 3, 6],
+        [6, 3, 7],
+        [0, 1, 2],
+        [2, 1, 3],
+        [4, 6, 5],
+        [6, 7, 5],
+    ]
     faces = [face if _outward(corners, face, at + [0, 0, r / 2]) else face[::-1] for face in faces]
     return [block, rb.Mesh(corners, faces)]
 
@@ -129,7 +149,9 @@ def _outward(corners: np.ndarray, face: list[int], middle: np.ndarray) -> bool:
 
 
 def glass(rng: Rng) -> rb.Material:
-    return rb.Material(0.1, reflect=0.2, transmit=float(rng.uniform(0.5, 0.8)), ior=float(rng.choice([1.5, 1.33, 1.0, 2.4])))
+    return rb.Material(
+        0.1, reflect=0.2, transmit=float(rng.uniform(0.5, 0.8)), ior=float(rng.choice([1.5, 1.33, 1.0, 2.4]))
+    )
 
 
 def add_close_ones(scene: rb.Scene, seed: int) -> None:

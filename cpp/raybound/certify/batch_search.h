@@ -23,6 +23,11 @@ struct BatchFindings {
     float until = 0;                   // no ray has looked for hits beyond
 };
 
+constexpr int fewest = 3;  // rays that a bundle pays for
+
+// The least box around all lanes.
+Boxd box_of(const Bounds<FloatPack>& packs);
+
 // The farthest t; infinite while a ray has hit nothing.
 float farthest(std::span<const NearestPack> hits);
 

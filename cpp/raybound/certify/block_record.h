@@ -15,7 +15,7 @@ using Words = std::vector<std::uint64_t>;
 struct Batch {
     std::uint32_t reflected, refracted;  // where these trees begin, in words from here; 0: nothing was sent on
     std::uint16_t faces, lights;
-    float until;  // no ray looks for hits beyond
+    float until;                 // no ray looks for hits beyond
     RaySet hit, alone, special;  // (BatchFindings)
 };
 

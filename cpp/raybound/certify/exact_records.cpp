@@ -131,8 +131,14 @@ void ExactTracer::write(Level& level) {
     }
     if (!writes_) return;
     const Geometry& geometry = scene_.geometry();
-    record::Batch batch{0, 0, std::uint16_t(level.faces.size()), 0, level.found.until,
-                        level.hit, level.found.alone, level.found.special};
+    record::Batch batch{0,
+                        0,
+                        std::uint16_t(level.faces.size()),
+                        0,
+                        level.found.until,
+                        level.hit,
+                        level.found.alone,
+                        level.found.special};
     for (const Level::LightValue& light : level.lights) batch.lights = std::uint16_t(batch.lights + (light.asked != 0));
     level.written = record::append(written_, &batch, 1);
     for (const Face& face : level.faces) {

@@ -72,8 +72,8 @@ void ExactTracer::search_shadows(Level& level, std::size_t light, RaySet all) {
 ExactTracer::Piece& ExactTracer::piece_at(const Level& level, const Face& face, int index) {
     const Geometry& geometry = scene_.geometry();
     const Vec3d normal(level.normal[index]);
-    const int number = Chart::piece_for(geometry, face.leaf, face.face,
-                                        geometry.leaves[face.leaf].is_complement ? -normal : normal);
+    const int number =
+        Chart::piece_for(geometry, face.leaf, face.face, geometry.leaves[face.leaf].is_complement ? -normal : normal);
     const Leaf& leaf = geometry.leaves[face.leaf];
     const bool outward = is_sheet(leaf) || face.entering != leaf.is_complement;
     const FaceKey key{face.primitive, face.leaf, face.face, face.face_offset, number, outward, face.outer};

@@ -46,8 +46,8 @@ struct BatchVectors {
     }
 };
 
-// What each ray knows of where it begins. What decides about a primitive, for packs: the solid that a ray is within, and
-// the one that it has left, for good or not.
+// What each ray knows of where it begins. What decides about a primitive, for packs: the solid that a ray is within,
+// and the one that it has left, for good or not.
 struct BatchStates {
     alignas(64) std::uint32_t within[batch_size], gone[batch_size], left[batch_size];
     Departure from[batch_size];
@@ -67,8 +67,8 @@ inline std::uint32_t lanes_with(const std::uint32_t (&numbers)[batch_size], int 
     return bits(PackMask<float>{lanes == std::int32_t(primitive)});
 }
 
-// The lanes of a pack that search for a primitive's crossing: not those that have left it for good, nor those that it is
-// known of how they leave it.
+// The lanes of a pack that search for a primitive's crossing: not those that have left it for good, nor those that it
+// is known of how they leave it.
 inline std::uint32_t asking_lanes(const BatchStates& states, int pack, std::uint32_t primitive) {
     return 0xffu & ~(lanes_with(states.gone, pack, primitive) | lanes_with(states.within, pack, primitive));
 }

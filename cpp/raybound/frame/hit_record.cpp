@@ -96,10 +96,13 @@ void check(const Snapshot& scene, const HitRecord& record, const Refusal& refusa
     if (seal_of(record) != record.seal) refusal.because("has been changed");
     if (!record.hit) return;
     const std::uint32_t index = index_of(scene, record.object_id);
-    if (index == Departure::none) refusal.because("has object_id " + std::to_string(record.object_id) + ", which is none of its objects");
+    if (index == Departure::none)
+        refusal.because("has object_id " + std::to_string(record.object_id) + ", which is none of its objects");
     const int faces = scene.objects()[index].shape->face_count();
-    const std::string face = "face " + std::to_string(record.face_id) + " of object " + std::to_string(record.object_id);
-    if (record.face_id < 0 || record.face_id >= faces) refusal.because("names " + face + ", which has " + std::to_string(faces));
+    const std::string face =
+        "face " + std::to_string(record.face_id) + " of object " + std::to_string(record.object_id);
+    if (record.face_id < 0 || record.face_id >= faces)
+        refusal.because("names " + face + ", which has " + std::to_string(faces));
     const Geometry& geometry = scene.geometry();
     const double allowed = 4 * length(Vec3d(load(record.point_error))) +
                            0x1p-20 * max_component(absolute(Vec3d(load(record.point)))) +
@@ -172,8 +175,7 @@ RayStart RayOrigins::leave(const HitRecord& hit, const Vec3d& direction) const {
     nearest.within = hit.within_id < 0 ? Departure::none : index_of(scene_, hit.within_id);
     nearest.touching = hit.touching && nearest.within != Departure::none;
     const bool closed = is_closed(geometry, geometry.primitives[nearest.primitive]);
-    const Vec3d normal =
-        closed ? seen_normal(face.normal, Vec3d(load(hit.direction)), hit.entering) : face.normal;
+    const Vec3d normal = closed ? seen_normal(face.normal, Vec3d(load(hit.direction)), hit.entering) : face.normal;
     const bool outward = dot(direction, normal) >= 0;
     const Vec3f side(outward ? normal : -normal);
     const Departures leaving = departures(geometry, nearest);

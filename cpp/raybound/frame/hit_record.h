@@ -8,9 +8,10 @@
 
 namespace raybound {
 
-// One answer. What the errors bound is said at SurfacePoint. A miss has t infinite, ids -1 and zeros. `direction` is the ray's, with a largest component in [1, 2). At a
-// solid it goes against the normal if the ray is entering, else along it. `within_id`: the closed solid that the ray was inside of on its
-// way, or -1; `touching`: it leaves that solid where it enters this one.
+// One answer. What the errors bound is said at SurfacePoint. A miss has t infinite, ids -1 and zeros. `direction` is
+// the ray's, with a largest component in [1, 2). At a solid it goes against the normal if the ray is entering, else
+// along it. `within_id`: the closed solid that the ray was inside of on its way, or -1; `touching`: it leaves that
+// solid where it enters this one.
 struct HitRecord {
     bool hit;
     float t, t_error;

@@ -35,7 +35,8 @@ class Crossings {
             return false;
         };
         scene_.accelerator().traverse(geometry_, ray_.narrow, everywhere, visit, nullptr);
-        std::ranges::stable_sort(found_, [&](const RayCrossing& a, const RayCrossing& b) { return order(a) < order(b); });
+        std::ranges::stable_sort(found_,
+                                 [&](const RayCrossing& a, const RayCrossing& b) { return order(a) < order(b); });
         return std::move(found_);
     }
 

@@ -100,7 +100,8 @@ std::vector<std::uint8_t> shape_contains(const Shape& shape, std::span<const Vec
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
     if (!is_closed(geometry, primitive))
-        throw std::invalid_argument("contains: the shape must be closed, a disk, polygon or mesh with a border is open");
+        throw std::invalid_argument(
+            "contains: the shape must be closed, a disk, polygon or mesh with a border is open");
     std::vector<std::uint8_t> inside(points.size());
     answer_all(points.size(), watch, [&](std::size_t i) { inside[i] = contains(geometry, primitive, points[i]); });
     return inside;

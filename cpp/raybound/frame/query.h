@@ -16,8 +16,8 @@ namespace raybound {
 std::vector<HitRecord> intersect_rays(const Snapshot& scene, const RayOrigins& origins,
                                       std::span<const Vec3f> directions, const Watch& watch);
 
-// Every crossing along each ray, in order: those of ray i are records[offsets[i]] to records[offsets[i + 1]]. All lie on
-// the ray as it is given. Each closed solid's alternate, and the number is even unless the ray begins in it.
+// Every crossing along each ray, in order: those of ray i are records[offsets[i]] to records[offsets[i + 1]]. All lie
+// on the ray as it is given. Each closed solid's alternate, and the number is even unless the ray begins in it.
 struct AllHits {
     std::vector<HitRecord> records;
     std::vector<std::int64_t> offsets;
@@ -25,7 +25,8 @@ struct AllHits {
 AllHits intersect_all(const Snapshot& scene, const RayOrigins& origins, std::span<const Vec3f> directions,
                       const Watch& watch);
 
-// The ids of the closed solids around each point, in order: those of point i are ids[offsets[i]] to ids[offsets[i + 1]].
+// The ids of the closed solids around each point, in order: those of point i are ids[offsets[i]] to ids[offsets[i +
+// 1]].
 struct Containing {
     std::vector<std::int32_t> object_ids;
     std::vector<std::int64_t> offsets;

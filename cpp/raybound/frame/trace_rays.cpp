@@ -20,8 +20,8 @@ RenderStatistics trace_all(const Snapshot& scene, std::size_t count, const Rende
     constexpr std::size_t chunk = 256;
     std::atomic<bool> cancelled = false;
     const int threads = thread_count(settings.threads);
-    std::vector<Tracer<float>> tracers(
-        std::size_t(threads), Tracer<float>(scene, {settings.max_depth, settings.acceleration, &cancelled}));
+    std::vector<Tracer<float>> tracers(std::size_t(threads),
+                                       Tracer<float>(scene, {settings.max_depth, settings.acceleration, &cancelled}));
     const auto work = [&](int item, int worker) {
         const std::size_t begin = std::size_t(item) * chunk;
         for (std::size_t i = begin; i < std::min(count, begin + chunk) && !cancelled; ++i)

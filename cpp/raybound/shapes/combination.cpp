@@ -24,7 +24,7 @@ bool surely_holds(const Shape& shape, const Shape& other) {
     Geometry geometry;
     add_primitive(geometry, 0, shape, {});
     const Primitive& primitive = geometry.primitives.front();
-    if (!is_left_for_good(geometry, primitive, true)) return false;
+    if (!is_convex_solid(geometry, primitive)) return false;
     const Boxd box = shape_bounds(other, {});
     for (int corner = 0; corner < 8; ++corner) {
         Vec3d p;

@@ -90,7 +90,8 @@ std::uint32_t CsgPack::meet_children(const CsgNode& node, std::uint32_t lanes) {
 
 std::uint32_t CsgPack::meet_first(const CsgNode& node, std::uint32_t lanes) {
     const std::size_t begin = parts_.size();
-    const std::uint32_t met = meet(geometry_.csg_children[node.first], lanes), index = std::uint32_t(&node - geometry_.csg_nodes.data());
+    const std::uint32_t met = meet(geometry_.csg_children[node.first], lanes),
+                        index = std::uint32_t(&node - geometry_.csg_nodes.data());
     parts_.resize(begin);
     if (met == 0) return 0;
     parts_.push_back({.node = index, .several = met});

@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "raybound/shapes/depth.h"
 #include "raybound/shapes/intersect.h"
 
 namespace raybound {
@@ -35,12 +36,6 @@ Crossing<Wide<T>> crossing_from_outside(const Geometry& geometry, const Primitiv
                                         const Departure& from, bool left, const Asking<T>& asking = {},
                                         Observer observer = {});
 
-// How deep a point lies inside a closed primitive, to first order near its surface; negative outside.
-double depth_of(const Geometry& geometry, const Primitive& primitive, const Vec3d& p);
-
-// Is a point inside a closed primitive? The sign of its depth, or for meshes the parity of crossings.
-bool contains(const Geometry& geometry, const Primitive& primitive, const Vec3d& p);
-
 // What a whole line has inside of a closed primitive, in order.
 struct Stretch {
     Crossing<double> in, out;
@@ -48,6 +43,7 @@ struct Stretch {
 std::vector<Stretch> stretches_of(const Geometry& geometry, const Primitive& primitive, const Ray<double>& ray);
 
 // The faces of a mesh that a ray crosses ahead of its origin, in order.
-std::vector<Crossing<double>> mesh_crossings_ahead(const Geometry& geometry, std::uint32_t leaf, const Ray<double>& ray);
+std::vector<Crossing<double>> mesh_crossings_ahead(const Geometry& geometry, std::uint32_t leaf,
+                                                   const Ray<double>& ray);
 
 }  // namespace raybound

@@ -107,4 +107,9 @@ inline Rank rank(const Geometry& geometry, std::uint32_t primitive, std::int32_t
 // Once a ray has left a convex leaf outward (or a sheet on either side), it cannot meet it again.
 bool is_left_for_good(const Geometry& geometry, const Primitive& primitive, bool outward);
 
+// Is it one convex solid? (Of closed primitives those that are left for good.)
+inline bool is_convex_solid(const Geometry& geometry, const Primitive& primitive) {
+    return is_left_for_good(geometry, primitive, true);
+}
+
 }  // namespace raybound

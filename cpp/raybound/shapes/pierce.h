@@ -71,9 +71,9 @@ struct Piercing {
     bool entering = false;  // against the outward normal: exact, as the normal's slope has the sign of -sum d_z
 };
 
-// The side of an edge that the line passes on, where it meets the edge itself: that of the line moved by (e, e^2) across
-// its direction, for any e small enough. The edge function from p to q then changes by e (p - q)_y - e^2 (p - q)_x, so
-// faces on both sides of an edge agree, and every face of a closed mesh is met or passed by the same line.
+// The side of an edge that the line passes on, where it meets the edge itself: that of the line moved by (e, e^2)
+// across its direction, for any e small enough. The edge function from p to q then changes by e (p - q)_y - e^2 (p -
+// q)_x, so faces on both sides of an edge agree, and every face of a closed mesh is met or passed by the same line.
 inline double side_of_moved_line(const Vec3d& p, const Vec3d& q, const PermutedLine& line) {
     const ExactDifference edge(p, q);
     double side = exact_determinant(edge, line.permuted_direction, 1, 2) / line.shear.dz;

@@ -139,8 +139,8 @@ inline Spans<T> quadric_spans(const Quadric& s, const LocalRay<T>& ray) {
     return spans;
 }
 
-// Where a ray that is inside leaves. Where F falls to both ends of the line (a < 0) it leaves at the lower root if it is
-// before the gap between the roots.
+// Where a ray that is inside leaves. Where F falls to both ends of the line (a < 0) it leaves at the lower root if it
+// is before the gap between the roots.
 template <class T>
 inline Exit<T> quadric_exit(const Quadric& s, const LocalRay<T>& ray) {
     const T r(s.radius);

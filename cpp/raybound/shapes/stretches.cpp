@@ -54,7 +54,8 @@ void add_crossings(const Geometry& geometry, std::uint32_t index, const Ray<doub
         for (std::uint32_t lanes = may_cross(pack, line.packs, everywhere); lanes != 0;) {
             const auto face = std::int32_t(pack.id[std::size_t(bvh::take_lowest(lanes))]);
             const Piercing p = pierce_face(mesh.corners<double>(face), line.line);
-            if (p.met && (!only_ahead || p.hit)) found.push_back({backward ? -p.t : p.t, index, face, 0, true, p.entering != backward});
+            if (p.met && (!only_ahead || p.hit))
+                found.push_back({backward ? -p.t : p.t, index, face, 0, true, p.entering != backward});
         }
     });
 }
@@ -75,11 +76,14 @@ LineCrossings line_crossings(const Geometry& geometry, std::uint32_t index, cons
 // itself. Where a mesh passes through itself it is a union, without inner walls.
 std::vector<Stretch> mesh_stretches(const Geometry& geometry, std::uint32_t index, const Ray<double>& ray) {
     const LineCrossings line = line_crossings(geometry, index, ray);
+    const Leaf& leaf = geometry.leaves[index];
+    const double reach =
+        double(geometry.meshes[leaf.polygon].data->reach()) / length(mesh_line(geometry, leaf, ray).direction);
     std::vector<Stretch> result;
     for (std::size_t k = 0; k < std::min(line.entries.size(), line.exits.size()); ++k) {
         Stretch next{line.entries[k], line.exits[k]};
         next.out.t = std::max(next.in.t, next.out.t);
-        const double rounding = 0x1p-20 * (std::abs(next.in.t) + 1);
+        const double rounding = 0x1p-20 * (std::abs(next.in.t) + reach);
         if (!result.empty() && next.in.t < result.back().out.t - rounding)
             result.back().out = next.out;
         else

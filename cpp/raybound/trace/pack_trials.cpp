@@ -50,8 +50,8 @@ PackHit single_hit(const Snapshot& scene, const WideRay<float>& ray) {
     PackHit record{};
     record.t = nearest.t[0];
     if (nearest.hit == 0) return record;
-    const Crossing<double> crossing{nearest.crossing_t[0],  nearest.leaf[0], nearest.face[0],
-                                    nearest.face_offset[0], true,            nearest.entering != 0};
+    const Crossing<double> crossing{
+        nearest.crossing_t[0], nearest.leaf[0], nearest.face[0], nearest.face_offset[0], true, nearest.entering != 0};
     record.hit = true;
     record.face = crossing.face;
     record.primitive = nearest.primitive[0], record.leaf = crossing.leaf;
@@ -231,8 +231,8 @@ PackLocalLight trial_light(const Snapshot& scene, std::uint32_t object, std::spa
             for (std::size_t j = 0; j < count; ++j)
                 result.lights[k * count + j] =
                     light_record(light_term(*scene.lights()[j].light, material, at, n_dot_v));
-            result.rays[k] = secondary_record(
-                secondary_rays<float>(material, directions[k], normals[k], k % 2 == 0, outside_of(k)));
+            result.rays[k] =
+                secondary_record(secondary_rays<float>(material, directions[k], normals[k], k % 2 == 0, outside_of(k)));
         }
     }
     return result;

@@ -78,8 +78,8 @@ class Search {
         doubtful_from_ = exit_.t - doubt;
     }
 
-    // A crossing whose kind contradicts what the ray knows. False if it has been looked at already: solids overlap. Then
-    // the ray is inside of this one, too, if it is not known to be inside of another.
+    // A crossing whose kind contradicts what the ray knows. False if it has been looked at already: solids overlap.
+    // Then the ray is inside of this one, too, if it is not known to be inside of another.
     bool look_closer(std::uint32_t primitive) {
         if (!is_careful(primitive)) {
             if (careful_count_ == most_careful) return false;
@@ -120,8 +120,7 @@ class Search {
         if (!(t < infinity<T>) || t > best_.t) return;
         bool touching = false;
         if (t >= doubtful_from_ && !is_before_exit(index, crossing, t, touching)) return;
-        if (best_.hit && t == best_.t && !(rank_of(index, crossing) < rank_of(best_.primitive, best_.crossing)))
-            return;
+        if (best_.hit && t == best_.t && !(rank_of(index, crossing) < rank_of(best_.primitive, best_.crossing))) return;
         best_.crossing = crossing;
         best_.t = t;
         best_.primitive = index;
@@ -173,8 +172,8 @@ class BlockerSearch {
         if (from_.within == Departure::none) return false;
         const Primitive& primitive = geometry_.primitives[from_.within];
         observer_.primitive();
-        return is_before_end(
-            geometry_, crossing_from_inside(geometry_, primitive, ray_, from_, asking(false), observer_), ray_);
+        return is_before_end(geometry_,
+                             crossing_from_inside(geometry_, primitive, ray_, from_, asking(false), observer_), ray_);
     }
 
     bool is_blocked_by(std::uint32_t index, bool filtered) const {

@@ -8,8 +8,8 @@
 
 namespace raybound {
 
-// The closest crossing: the lexicographic minimum of (t, object, face). Where a ray leaves the solid that it is within and
-// enters another at the same t, that is the entry, and the two are `touching`.
+// The closest crossing: the lexicographic minimum of (t, object, face). Where a ray leaves the solid that it is within
+// and enters another at the same t, that is the entry, and the two are `touching`.
 template <class T>
 struct Nearest {
     Crossing<Wide<T>> crossing{};

@@ -35,8 +35,8 @@ RayTreeNode Tracer<T>::ray_tree(const Vec3<T>& origin, const Vec3<T>& direction,
 
 template <class T>
 template <class Record>
-Vec3<T> Tracer<T>::radiance(const WideRay<T>& ray, const Departure& departed, int depth, Record record, EyeSample<T>* first,
-                            const Bvh::Frontier* from) {
+Vec3<T> Tracer<T>::radiance(const WideRay<T>& ray, const Departure& departed, int depth, Record record,
+                            EyeSample<T>* first, const Bvh::Frontier* from) {
     if (settings_.cancelled && settings_.cancelled->load(std::memory_order_relaxed)) return {};
     const Nearest<T> nearest = closest_hit(scene_, ray, departed, settings_.acceleration, from);
     Vec3<T> value(scene_.background());
@@ -118,19 +118,22 @@ template <class T>
 template <class Record>
 Vec3<T> Tracer<T>::add_secondary(const Vec3<T>& local, const Ray<T>& ray, const Shadable& at, int depth,
                                  Record record) {
-    const SecondaryRays<T> rays = secondary_rays(at.material, ray.direction, at.lit.normal, at.hit.entering, at.outside_ior);
+    const SecondaryRays<T> rays =
+        secondary_rays(at.material, ray.direction, at.lit.normal, at.hit.entering, at.outside_ior);
     if constexpr (Record::active) record.node->total_internal_reflection = rays.total;
     Vec3<T> sum = local;
     if (max_component(rays.reflect) > T(0)) {
         ++counts_.reflected;
         const WideRay<T> next(at.origin, rays.reflected);
-        const Vec3<T> seen = radiance(next, at.leaving.outer, depth + 1, record.child(RayKind::reflected, rays.reflect), nullptr);
+        const Vec3<T> seen =
+            radiance(next, at.leaving.outer, depth + 1, record.child(RayKind::reflected, rays.reflect), nullptr);
         sum = saturate(sum + rays.reflect * seen);
     }
     if (max_component(rays.transmit) > T(0)) {
         ++counts_.refracted;
         const WideRay<T> next(offset_origin(at.hit.point, at.hit.point_error, -at.side), rays.refracted);
-        const Vec3<T> seen = radiance(next, at.leaving.inner, depth + 1, record.child(RayKind::refracted, rays.transmit), nullptr);
+        const Vec3<T> seen =
+            radiance(next, at.leaving.inner, depth + 1, record.child(RayKind::refracted, rays.transmit), nullptr);
         sum = saturate(sum + rays.transmit * seen);
     }
     return sum;

@@ -38,7 +38,8 @@ class alignas(64) Tracer {
     Tracer(const Snapshot& scene, const TraceSettings& settings)
         : scene_(scene), settings_(settings), last_blockers_(scene.lights().size(), Departure::none) {}
 
-    // The radiance of an eye ray with a unit direction, where `eye` tells what its origin lies in; the search for what it hits may begin at `from`.
+    // The radiance of an eye ray with a unit direction, where `eye` tells what its origin lies in; the search for what
+    // it hits may begin at `from`.
     EyeSample<T> sample(const Vec3<T>& origin, const Vec3<T>& direction, const Departure& eye,
                         const Bvh::Frontier* from = nullptr);
 
