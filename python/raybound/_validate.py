@@ -198,7 +198,7 @@ def points(who: str, name: str, value: object) -> DoubleArray:
 
 @dataclass(frozen=True)
 class Rays:
-    """Where rays begin (points, or records of hits) and their directions or targets, as rows, and their shape before."""
+    """Where rays begin (points, or records of hits), their directions or targets, as rows, and their shape before."""
 
     origins: FloatArray | npt.NDArray[np.void]
     ends: FloatArray
@@ -208,12 +208,13 @@ class Rays:
 def rays(who: str, origins: object, ends: object, *, end_name: str = "directions") -> Rays:
     """Origins (..., 3) or records of hits (...) that broadcast with directions, none of them zero, or with targets."""
     second = vectors(who, end_name, ends)
+    first: FloatArray | npt.NDArray[np.void]
     if isinstance(origins, (np.ndarray, np.void)) and origins.dtype.names is not None:
         first = _records(who, np.asarray(origins))
-        first_shape = first.shape
     else:
         first = vectors(who, "origins", origins)
-        first_shape = first.shape[:-1]
+    tail = () if first.dtype.names else (3,)
+    first_shape = first.shape[: first.ndim - len(tail)]
     try:
         shape = np.broadcast_shapes(first_shape, second.shape[:-1])
     except ValueError:
@@ -226,7 +227,6 @@ def rays(who: str, origins: object, ends: object, *, end_name: str = "directions
             index = tuple(int(i) for i in bad[0])
             where = f" at index {index[0] if len(index) == 1 else index}" if index else ""
             raise ValueError(f"{who}: directions must be non-zero, got (0.0, 0.0, 0.0){where}")
-    tail = () if first.dtype.names else (3,)
     return Rays(
         np.ascontiguousarray(np.broadcast_to(first, shape + tail).reshape(-1, *tail)),
         np.ascontiguousarray(np.broadcast_to(second, (*shape, 3)).reshape(-1, 3)),

@@ -166,4 +166,5 @@ def intersect(
         raise ValueError("intersect: origins must be points, got records of hits (Scene.intersect takes them)")
     _validate.choice("intersect", "precision", precision, PRECISIONS)
     _validate.choice("intersect", "offsets", offsets, OFFSETS)
-    return _core.intersect_shape(checked._native, rays.origins, rays.ends, precision, offsets).reshape(rays.shape)
+    points = np.asarray(rays.origins, np.float32)
+    return _core.intersect_shape(checked._native, points, rays.ends, precision, offsets).reshape(rays.shape)

@@ -157,8 +157,8 @@ class Material(Value):
     ior : float
         Index of refraction inside over outside, > 0.
 
-    Glass that touches other solids refracts relative to them (see `Scene.add`). Solids that overlap are no stack of media:
-    each surface refracts as if its solid stood alone in air, on the way in and on the way out.
+    Glass that touches other solids refracts relative to them (see `Scene.add`). Solids that overlap are no stack of
+    media: each surface refracts as if its solid stood alone in air, on the way in and on the way out.
 
     Attributes have the same names; a scalar reads back as a float, a triple as a tuple, rounded to float32.
     """

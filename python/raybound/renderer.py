@@ -257,9 +257,9 @@ class Renderer:
     def trace(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> TraceResult:
         """Traces any rays.
 
-        `origins` (..., 3), or (...) records of hits (see `Scene.intersect`), and `directions` (..., 3), of length 2**-64
-        or more, scene units; both broadcast, and the arrays of the result have the shape of the rays. A record of a
-        miss sees the background. ValueError as for `Scene.intersect`.
+        `origins` (..., 3), or (...) records of hits (see `Scene.intersect`), and `directions` (..., 3), of length
+        2**-64 or more, scene units; both broadcast, and the arrays of the result have the shape of the rays. A record
+        of a miss sees the background. ValueError as for `Scene.intersect`.
         """
         rays = _validate.rays("Renderer.trace", origins, directions)
         with self._busy("trace"):

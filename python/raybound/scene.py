@@ -238,12 +238,12 @@ class Scene:
             Of length 2**-64 or more. Both broadcast: `scene.intersect(*camera.rays())` is a picture of records.
 
         Returns a structured array (...) with the fields
-            hit (bool); t, t_error (float32, in lengths of the direction, from the ray's own origin); point, point_error,
-            normal (3 float32; the outward unit normal); uv (2 float32); object_id, face_id (int32); entering (bool; the
-            ray comes from outside of a solid, or from the side of a sheet's normal); within_id (int32; the closed solid
-            that the ray was inside of on its way, -1 if in none or in several at once); touching (bool; it leaves that
-            solid where it enters this one); direction (3 float32; the ray's, scaled by a power of two); seal (uint32; of
-            the other fields, so that changed records are noticed).
+            hit (bool); t, t_error (float32, in lengths of the direction, from the ray's own origin); point,
+            point_error, normal (3 float32; the outward unit normal); uv (2 float32); object_id, face_id (int32);
+            entering (bool; the ray comes from outside of a solid, or from the side of a sheet's normal); within_id
+            (int32; the closed solid that the ray was inside of on its way, -1 if in none or in several at once);
+            touching (bool; it leaves that solid where it enters this one); direction (3 float32; the ray's, scaled by a
+            power of two); seal (uint32; of the other fields, so that changed records are noticed).
         A miss has t = inf, ids -1, and 0 elsewhere. Sees the scene as a renderer does.
 
         `t_error` bounds how far `t` is from where the ray exactly meets the surface. `point_error` bounds how far
@@ -252,8 +252,8 @@ class Scene:
         comes from far away or grazes. Where t is beyond float32, which only origins beyond 2**60 can make it, it is the
         largest float and t_error is infinite.
 
-        ValueError for shapes that do not broadcast, directions that are too short, and records that were changed or that
-        are not hits of this scene as it is now.
+        ValueError for shapes that do not broadcast, directions that are too short, and records that were changed or
+        that are not hits of this scene as it is now.
         """
         rays = _validate.rays("Scene.intersect", origins, directions)
         return self._document.snapshot().intersect(rays.origins, rays.ends).reshape(rays.shape)
@@ -274,9 +274,9 @@ class Scene:
     def occluded(self, origins: npt.ArrayLike, targets: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Whether an object lies between each origin and its target. Returns a (...) bool array.
 
-        `targets` is (..., 3), scene units; `origins` is the same or (...) records of hits, and both broadcast. Points are
-        taken as they are: one that was computed on a surface may lie on either side of it. From records, rays leave the
-        surface toward the target, so `scene.occluded(hits, lamp)` is right for every hit; a miss sees everything.
+        `targets` is (..., 3), scene units; `origins` is the same or (...) records of hits, and both broadcast. Points
+        are taken as they are: one that was computed on a surface may lie on either side of it. From records, rays leave
+        the surface toward the target, so `scene.occluded(hits, lamp)` is right for every hit; a miss sees everything.
         ValueError as for `intersect`.
         """
         segments = _validate.rays("Scene.occluded", origins, targets, end_name="targets")
@@ -285,10 +285,10 @@ class Scene:
     def containing(self, points: npt.ArrayLike) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int64]]:
         """The closed solids around each point: `object_ids, offsets = scene.containing(points)`.
 
-        `points` is (..., 3), scene units, rounded to float32; its n points count in C order. The ids of the objects that
-        hold point i, in order, are `object_ids[offsets[i]:offsets[i + 1]]`; offsets is (n + 1,) int64. Open surfaces
-        (disks, polygons, meshes with a border) hold nothing. Along any ray from a point, the solids around it are those
-        that are left once more often than they are entered.
+        `points` is (..., 3), scene units, rounded to float32; its n points count in C order. The ids of the objects
+        that hold point i, in order, are `object_ids[offsets[i]:offsets[i + 1]]`; offsets is (n + 1,) int64. Open
+        surfaces (disks, polygons, meshes with a border) hold nothing. Along any ray from a point, the solids around it
+        are those that are left once more often than they are entered.
         """
         checked = _validate.vectors("Scene.containing", "points", points)
         return self._document.snapshot().containing(np.ascontiguousarray(checked.reshape(-1, 3)))

@@ -99,7 +99,7 @@ def touching(rng: Rng) -> list[rb.Shape]:
     at, r = np.array(point(rng, 2.0)), size(rng)
 
     def moved(x: float, y: float, z: float) -> tuple[float, ...]:
-        return tuple((at + [x, y, z]).tolist())
+        return tuple((at + np.array([x, y, z])).tolist())
 
     block = rb.Box(moved(-r, -r, -r), moved(r, r, 0))
     kind = int(rng.integers(7))
@@ -139,7 +139,7 @@ def touching(rng: Rng) -> list[rb.Shape]:
         [4, 6, 5],
         [6, 7, 5],
     ]
-    faces = [face if _outward(corners, face, at + [0, 0, r / 2]) else face[::-1] for face in faces]
+    faces = [face if _outward(corners, face, at + np.array([0, 0, r / 2])) else face[::-1] for face in faces]
     return [block, rb.Mesh(corners, faces)]
 
 

@@ -209,8 +209,9 @@ def first_faces(all_corners: list[Any], o: Any, d: Any) -> dict[int, Crossed]:
 
 
 def moved_first_faces(all_corners: list[Any], o: Any, d: Any) -> dict[int, Crossed]:
-    """The faces that the line meets first, up to e, when it is moved across its direction by (e, e^2): how closed meshes
-    decide about lines through edges and corners, so that what is entered is left."""
+    """The faces that the line meets first, up to e, when it is moved across its direction by (e, e^2).
+
+    So closed meshes decide about lines through edges and corners: what is entered is left."""
     size = np.abs(np.asarray(d, float))
     z = 2 if size[2] >= max(size[0], size[1]) else 1 if size[1] >= size[0] else 0
     origin, direction = exact_vector(o), exact_vector(d)

@@ -1,4 +1,4 @@
-"""Inside is inside: the crossings of a closed solid alternate along any chain of rays, near and far, at edges and tips."""
+"""Inside is inside: crossings of a closed solid alternate along any chain of rays, near and far, at edges and tips."""
 
 import json
 from pathlib import Path
@@ -103,10 +103,11 @@ def test_normals_face_the_ray_that_enters(kind: str) -> None:
     for seed in range(20):
         found = random_march(kind, np.random.default_rng([seed, 11]), 400)
         scene = found.scene()
-        hits = scene.intersect(found.origins, found.directions)
+        directions = found.directions
+        hits = scene.intersect(found.origins, directions)
         for _ in range(4):
             alive = hits["hit"]
-            hits, directions = hits[alive], found.directions[alive] if _ == 0 else directions[alive]
+            hits, directions = hits[alive], directions[alive]
             along = np.einsum("ij,ij->i", hits["normal"].astype(float), directions.astype(float))
             assert ((along < 0) == hits["entering"]).all()
             seen += len(hits)

@@ -120,7 +120,7 @@ def test_the_order_of_adding_does_not_matter(scenes: int) -> None:
         things = [(shape, glass(rng) if rng.random() < 0.7 else material(rng)) for shape in shapes]
         middle = np.mean([shape.bounds for shape in shapes], axis=(0, 1))
         extent = max(float(np.ptp(shape.bounds, axis=0).max()) for shape in shapes)
-        away = rng.normal(size=3) + [0.5, 0, 0]
+        away = rng.normal(size=3) + np.array([0.5, 0, 0])
         camera = rb.Camera(middle + away / np.linalg.norm(away) * extent * 2.5, middle, fov=50, width=48, height=48)
         pictures = []
         for order in permutations(things):

@@ -54,7 +54,7 @@ Vec3<T> light_of(const Snapshot& scene, const Material& material, const Departin
     return sum;
 }
 
-// What `nearest` was found to be sends back, and what comes by the mirrored ray, once.
+// The light that a hit sends back (for a miss, the background), and what comes by the mirrored ray, once.
 template <class T, class Observer>
 Vec3<T> bounce(const Snapshot& scene, const WideRay<T>& ray, const Nearest<T>& nearest, const Leaving& leaving,
                bool is_last, Bounces& counts, Observer observer) {
