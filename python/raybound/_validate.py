@@ -207,12 +207,12 @@ class Rays:
 
 def rays(who: str, origins: object, ends: object, *, end_name: str = "directions") -> Rays:
     """Origins (..., 3) or records of hits (...) that broadcast with directions, none of them zero, or with targets."""
-    second = vectors(who, end_name, ends)
     first: FloatArray | npt.NDArray[np.void]
     if isinstance(origins, (np.ndarray, np.void)) and origins.dtype.names is not None:
         first = _records(who, np.asarray(origins))
     else:
         first = vectors(who, "origins", origins)
+    second = vectors(who, end_name, ends)
     tail = () if first.dtype.names else (3,)
     first_shape = first.shape[: first.ndim - len(tail)]
     try:

@@ -203,10 +203,10 @@ def test_vertices_that_a_transform_makes_one_are_refused() -> None:
     ("origins", "directions", "parts"),
     [
         ([(0, 0, 0)], [(0, 0, 0)], ("intersect: directions must be non-zero", "index 0")),
-        ([(0, 0, 0)] * 2, [(0, 0, 1)], ("intersect: origins and directions",)),
+        ([(0, 0, 0)] * 2, [(0, 0, 1)] * 3, ("intersect: origins and directions must broadcast", "(2, 3)", "(3, 3)")),
         ([(0, 0, float("nan"))], [(0, 0, 1)], ("intersect: origins must be finite", "nan")),
         ([(0, 0, 0)], [(0, 0, 1e39)], ("intersect: directions must", "e+39")),
-        ((0, 0, 0), (0, 0, 1), ("intersect: origins", "shape (n, 3)")),
+        ((0, 0), (0, 0, 1), ("intersect: origins", "shape (..., 3)", "(2,)")),
         (np.zeros((2, 2)), np.ones((2, 2)), ("intersect: origins", "(2, 2)")),
     ],
 )

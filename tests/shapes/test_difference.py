@@ -1,6 +1,7 @@
 """What is left of a solid without others. (Membership along rays: test_csg.py.)"""
 
 import pickle
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -117,7 +118,7 @@ def test_rays_alternate_through_differences() -> None:
         middle, extent = np.mean(shape.bounds, axis=0), float(np.ptp(shape.bounds, axis=0).max())
         ways = unit(rng, 100)
         records, offsets = scene.intersect_all(middle - 3 * extent * ways + rng.normal(size=3) * extent * 0.2, ways)
-        for begin, end in zip(offsets, offsets[1:]):
+        for begin, end in pairwise(offsets):
             assert records["entering"][begin:end].tolist() == [True, False] * ((end - begin) // 2)
         crossings += len(records)
     assert crossings > 3000
