@@ -5,6 +5,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 from tests.support.random_scenes import glass, material, touching
+from tests.support.support_shapes import unit
 
 import raybound as rb
 
@@ -145,3 +146,70 @@ def test_parts_of_one_ball_are_the_ball() -> None:
             pictures.append(renderer.render(camera).image)
     off = np.abs(pictures[0] - pictures[1]).max(axis=-1) > 1e-5
     assert off.mean() < 0.02
+
+
+def cube(low: float, high: float) -> rb.Mesh:
+    corners = [(x, y, z) for z in (low, high) for y in (-1, 1) for x in (-1, 1)]
+    faces = [
+        *((0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4)),
+        *((2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)),
+    ]
+    return rb.Mesh(corners, faces)
+
+
+# Solids with the flat face z = 0, above it or below it.
+FLAT: dict[str, tuple[rb.Shape, rb.Shape]] = {
+    "box": (rb.Box((-1, -1, 0), (1, 1, 1)), rb.Box((-1, -1, -1), (1, 1, 0))),
+    "cylinder": (rb.Cylinder((0, 0, 0), (0, 0, 1)), rb.Cylinder((0, 0, 0), (0, 0, -1))),
+    "cone": (rb.Cone((0, 0, 0), (0, 0, 2)), rb.Cone((0, 0, 0), (0, 0, -2))),
+    "frustum": (
+        rb.Cone((0, 0, 0), (0, 0, 1), top_radius=0.6),
+        rb.Cone((0, 0, -1), (0, 0, 0), radius=0.6, top_radius=1),
+    ),
+    "paraboloid": (
+        rb.Quadric((1, 1, 0, 0, 0, 0, 0, 0, 1, -1), rb.Box((-1, -1, 0), (1, 1, 1))),
+        rb.Quadric((1, 1, 0, 0, 0, 0, 0, 0, -1, -1), rb.Box((-1, -1, -1), (1, 1, 0))),
+    ),
+    "half ball": (rb.Sphere() & rb.Box((-2, -2, 0), (2, 2, 2)), rb.Sphere() - rb.Box((-2, -2, 0), (2, 2, 2))),
+    "drilled": (
+        rb.Box((-1, -1, 0), (1, 1, 1)) - rb.Cylinder((0.8, 0.8, -1), (0.8, 0.8, 2), radius=0.1),
+        rb.Box((-1, -1, -1), (1, 1, 0)) | rb.Sphere((0, 0, -1), 0.5),
+    ),
+    "mesh": (cube(0, 1), cube(-1, 0)),
+}
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("below", FLAT)
+@pytest.mark.parametrize("above", FLAT)
+def test_every_pair_that_shares_a_face(above: str, below: str, turned: bool) -> None:
+    """From inside of the upper one to the shared face: Snell's law between the two, both orders byte for byte."""
+    place = rb.Transform.translate(3, -2, 5) @ rb.Transform.rotate(37, (1, 2, -1)) if turned else rb.Transform()
+    matrix = np.array(place.matrix)
+    rng = np.random.default_rng(9)
+    local = np.concatenate([rng.uniform(-0.25, 0.25, (40, 2)), np.full((40, 1), 0.2)], axis=1)
+    ways = unit(rng, 40) * [0.6, 0.6, 0] - [0, 0, 1]
+    origins = local @ matrix[:3, :3].T + matrix[:3, 3]
+    directions = ways @ matrix[:3, :3].T
+    sines = np.linalg.norm(ways[:, :2], axis=1) / np.linalg.norm(ways, axis=1)
+    answers = []
+    for order in (1, -1):
+        scene = rb.Scene(ambient=1)
+        for shape, index in ((FLAT[above][0], 1.5), (FLAT[below][1], 4 / 3))[::order]:
+            scene.add(shape, rb.Material(0.0, transmit=1.0, ior=index), transform=place)
+        upper = 0 if order == 1 else 1
+        hits = scene.intersect(origins, directions)
+        assert (hits["object_id"] == 1 - upper).all()
+        assert hits["touching"].all()
+        assert (hits["within_id"] == upper).all()
+        with rb.Renderer(scene, max_depth=2) as renderer:
+            paths = renderer.paths(origins, directions)
+        first = paths[paths["depth"] == 1]
+        second = paths[paths["depth"] == 2]
+        assert (second["object_id"] == 1 - upper).all()  # on its way out of the lower one
+        went = (second["point"].astype(float) - first["point"]) @ matrix[:3, :3]
+        bent = np.linalg.norm(went[:, :2], axis=1) / np.linalg.norm(went, axis=1)
+        assert np.allclose(bent * np.float32(4 / 3), sines * 1.5, atol=2e-5)
+        answers.append([paths[name] for name in ("origin", "point", "t", "kind", "weight", "face_id")])
+    for one, other in zip(*answers, strict=True):
+        assert np.array_equal(one, other)
