@@ -155,14 +155,17 @@ def glass(rng: Rng) -> rb.Material:
 
 
 def add_close_ones(scene: rb.Scene, seed: int) -> None:
-    """Differences, and solids that touch or coincide, most of them of glass; sometimes glass around the eye."""
+    """Differences, and solids that touch or coincide, most of them of glass."""
     rng = np.random.default_rng([seed, 20261])
     shapes = [difference(rng), *touching(rng), *touching(rng)]
     for shape in shapes:
         scene.add(shape, glass(rng) if rng.random() < 0.7 else material(rng))
+
+
+def add_glass_around_the_eye(scene: rb.Scene, seed: int) -> None:
+    rng = np.random.default_rng([seed, 20262])
     assert scene.camera is not None
-    if rng.random() < 0.25:
-        scene.add(rb.Sphere(scene.camera.eye, float(rng.uniform(0.1, 1))), glass(rng))
+    scene.add(rb.Sphere(scene.camera.eye, float(rng.uniform(0.1, 1))), glass(rng))
 
 
 def transform(rng: Rng) -> rb.Transform | None:

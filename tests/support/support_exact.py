@@ -5,7 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from tests.support.random_scenes import MAKERS, Rng, light, material, random_scene, transform
+from tests.support.random_scenes import (
+    MAKERS,
+    Rng,
+    add_glass_around_the_eye,
+    light,
+    material,
+    random_scene,
+    transform,
+)
 
 import raybound as rb
 
@@ -133,6 +141,8 @@ def check_scene(seed: int, tally: Tally, *, cameras: int = 5, pixels: int = 64, 
     frame equals the base image, byte for byte."""
     rng = np.random.default_rng([seed, 6])
     scene = random_scene(seed, pixels=pixels)
+    if seed % 9 == 8:
+        add_glass_around_the_eye(scene, seed)
     memory = MEMORY[seed % len(MEMORY)]
     with (
         rb.Renderer(scene, method="exact", memory=memory, threads=1 + seed % 2) as exact,

@@ -133,7 +133,7 @@ def test_paths_in_a_mirrored_sphere_are_those_of_exact_arithmetic(name: str, sca
 
 @all_scales(["touching-glass"])
 def test_a_common_face_of_two_glass_blocks_counts_once(name: str, scale: float) -> None:
-    """A ray that leaves a block there starts on the other's face, at t = 0, which is no hit: at all pixels alike."""
+    """A ray that leaves a block there enters the other at the same t: the entered face is seen, at all pixels alike."""
     scene, _ = hard(name, scale)
     first, second = scene.objects[144].id, scene.objects[145].id
     passed = 0
@@ -144,9 +144,10 @@ def test_a_common_face_of_two_glass_blocks_counts_once(name: str, scale: float) 
             nodes = [rb.render(scene, cam, max_depth=6).explain(0, 0).tree]
             while through := [c for c in nodes[-1]["children"] if c["kind"] == "refracted"]:
                 nodes += through
-            assert [n["object_id"] for n in nodes[:3]] == [first, first, second]
+            assert [n["object_id"] for n in nodes[:3]] == [first, second, second]
             assert [n["point"][0] for n in nodes[:3]] == [np.float32(x * scale) for x in (-1.5, -0.25, 1.0)]
-            assert np.abs(np.subtract(nodes[2]["direction"], nodes[0]["direction"])).max() < 1e-6
+            for one, other in ((2, 1), (3, 0)):  # equal indices bend nothing; then out again
+                assert np.abs(np.subtract(nodes[one]["direction"], nodes[other]["direction"])).max() < 1e-6
             passed += 1
     assert passed == 21
 

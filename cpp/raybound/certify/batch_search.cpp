@@ -21,7 +21,6 @@ struct BatchSearch {
     const RayBatch& rays;
     BatchHits& hits;
     SearchCounts& counts;
-    BatchFindings& findings;
     std::array<FloatPack, batch_packs> doubtful_from{};  // of rays that are within a solid: where they may leave it
     RaySet doubtful = 0;                                 // rays that have to be searched for alone
 
@@ -200,7 +199,7 @@ void closest_hits(const Snapshot& scene, const RayBatch& rays, BatchHits& hits, 
                   BatchFindings& findings) {
     findings.alone = findings.touching = findings.special = 0;
     std::copy_n(rays.states.within, rays.packs() * pack_width, findings.within);
-    BatchSearch search{scene, rays, hits, counts, findings};
+    BatchSearch search{scene, rays, hits, counts};
     BatchHits exits;
     RaySet within = 0;
     for (int k = 0; k < rays.packs(); ++k) {

@@ -13,8 +13,7 @@ struct ExactTracer::Face {
     std::uint32_t primitive = 0, leaf = 0;
     std::int32_t face = 0, face_offset = 0;
     bool entering = false;
-    bool closed = false;                 // the face of a solid
-    std::uint32_t outer = 0, inner = 0;  // what rays that leave on the viewer's side, or the other, have left for good
+    std::uint32_t outer = 0;  // what rays that leave on the viewer's side have left for good
     std::int32_t object = -1;
     const Material* material = nullptr;
     RaySet rays = 0;

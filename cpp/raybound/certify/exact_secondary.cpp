@@ -37,8 +37,7 @@ void ExactTracer::collect(Level& level, bool reflected) {
                                            : offset_origin(level.point[i], level.point_error[i], -level.side[i]);
             const Departures leaving = departures_of(level, face, i);
             const Departure& from = reflected ? leaving.outer : leaving.inner;
-            next.rays.add(origin, make_ray(origin, next.direction_of_hit[i]).direction, level.way[i], from,
-                          gone_for_good(scene_.geometry(), from));
+            next.rays.add(origin, make_ray(origin, next.direction_of_hit[i]).direction, level.way[i], from);
         }
     }
 }

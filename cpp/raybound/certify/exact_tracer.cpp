@@ -134,9 +134,7 @@ void ExactTracer::complete(Face& face) const {
     face.object = object.id;
     face.material = object.material.get();
     const Primitive& primitive = geometry.primitives[face.primitive];
-    face.closed = is_closed(geometry, primitive);
     face.outer = is_left_for_good(geometry, primitive, face.entering) ? face.primitive : Departure::none;
-    face.inner = is_left_for_good(geometry, primitive, !face.entering) ? face.primitive : Departure::none;
 }
 
 Departures ExactTracer::departures_of(const Level& level, const Face& face, int ray) const {
@@ -203,7 +201,7 @@ UV<FloatPack> ExactTracer::meet_pack(const RayBatch& rays, Level& level, const F
     if (material.transmit != Vec3f{}) scatter(hit.point_error, index, count, level.point_error);
     for (int lane = 0; lane < count; ++lane) {
         const int i = index[lane];
-        level.outside.states.set(i, departures_of(level, face, i).outer, face.outer);
+        level.outside.states.set(i, departures_of(level, face, i).outer);
     }
     if (material.texture)
         material.texture->prefetch(hit.uv, goes_around(scene_.geometry().leaves[face.leaf], face.face));

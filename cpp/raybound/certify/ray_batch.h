@@ -52,11 +52,11 @@ struct BatchStates {
     alignas(64) std::uint32_t within[batch_size], gone[batch_size], left[batch_size];
     Departure from[batch_size];
 
-    void set(int i, const Departure& departure, std::uint32_t left_for_good) {
+    void set(int i, const Departure& departure) {
         from[i] = departure;
         within[i] = departure.within;
-        gone[i] = left_for_good;
-        left[i] = left_for_good == Departure::none ? departure.left : Departure::none;
+        gone[i] = departure.gone();
+        left[i] = departure.for_good ? Departure::none : departure.left;
     }
 };
 
@@ -87,11 +87,11 @@ struct RayBatch {
 
     int packs() const { return (count + pack_width - 1) / pack_width; }
     RaySet all() const { return count == batch_size ? ~RaySet(0) : (RaySet(1) << count) - 1; }
-    void add(const Vec3f& o, const Vec3f& d, float way, const Departure& from, std::uint32_t left_for_good) {
+    void add(const Vec3f& o, const Vec3f& d, float way, const Departure& from) {
         origin.set(count, o);
         direction.set(count, d);
         travelled[count] = way;
-        states.set(count++, from, left_for_good);
+        states.set(count++, from);
     }
     // Eight eye rays at once, where as many stand before as fill packs.
     void add_pack(const Vec3<FloatPack>& o, const Vec3<FloatPack>& d, const Departure& eye) {
@@ -99,7 +99,7 @@ struct RayBatch {
         origin.set_pack(k, o);
         direction.set_pack(k, d);
         store(FloatPack(0), travelled.value + count);
-        for (int lane = 0; lane < pack_width; ++lane) states.set(count++, eye, Departure::none);
+        for (int lane = 0; lane < pack_width; ++lane) states.set(count++, eye);
     }
     // Lanes out of use repeat the last ray.
     void pad() {
@@ -107,7 +107,7 @@ struct RayBatch {
             origin.set(k, origin[count - 1]);
             direction.set(k, direction[count - 1]);
             travelled[k] = travelled[count - 1];
-            states.set(k, states.from[count - 1], states.gone[count - 1]);
+            states.set(k, states.from[count - 1]);
         }
     }
     RayPack pack(int k) const { return RayPack(origin.pack(k), direction.pack(k)); }

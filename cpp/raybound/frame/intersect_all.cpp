@@ -27,7 +27,7 @@ class Crossings {
         if (from_.within != Departure::none) add_solid(from_.within);
         float everywhere = infinity<float>;
         const auto visit = [&](std::uint32_t index, float, bool) {
-            if (index == from_.within || index == gone_for_good(geometry_, from_)) return false;
+            if (index == from_.within || index == from_.gone()) return false;
             if (is_closed(geometry_, geometry_.primitives[index]))
                 add_solid(index);
             else

@@ -68,7 +68,7 @@ void add_pack(const Camera& camera, const Departure& eye, const FrameBuffers& bu
     }
     for_each_lane(wanted, [&](int lane) {
         to.pixel[std::size_t(to.rays.count)] = at[lane];
-        to.rays.add(camera.eye(), lane_of(directions, lane), 0, eye, Departure::none);
+        to.rays.add(camera.eye(), lane_of(directions, lane), 0, eye);
     });
 }
 

@@ -106,7 +106,6 @@ class CsgEvaluation {
   public:
     CsgEvaluation(const Geometry& geometry, const Ray<T>& ray) : geometry_(geometry), spans_(geometry, ray) {
         stack_.reserve(32);
-        open_.reserve(16);
     }
     CsgEvaluation(const CsgEvaluation&) = delete;
     CsgEvaluation& operator=(const CsgEvaluation&) = delete;
@@ -125,9 +124,36 @@ class CsgEvaluation {
     // All of them, on the whole line, once evaluated.
     std::span<const Interval<T>> intervals() const { return stack_; }
 
+    void evaluate(std::uint32_t root) {
+        if (geometry_.is_high(root))
+            walk(root);
+        else
+            recurse(root);
+    }
+
+  private:
+    struct Open {
+        std::uint32_t node, next;  // child
+        std::size_t begin, middle;
+    };
+
+    // (Recursion is faster; high expressions would fill the stack.)
+    void recurse(std::uint32_t index) {
+        const CsgNode& node = geometry_.csg_nodes[index];
+        if (node.kind == CsgKind::leaf) return push_leaf(index, node);
+        const std::size_t begin = stack_.size();
+        const bool cuts = node.kind != CsgKind::csg_union;
+        for (std::uint32_t i = 0; i < node.count && !(cuts && i > 0 && stack_.size() == begin); ++i) {
+            const std::size_t middle = stack_.size();
+            recurse(geometry_.csg_children[node.first + i]);
+            if (cuts && i > 0) cut(node.kind, begin, middle);
+        }
+        if (!cuts) unite(begin);
+    }
+
     // Each operation once for each child that has been evaluated: on the stack then is what the child has, from
     // `middle` on, after what those before it have left. What cuts is done when nothing is left.
-    void evaluate(std::uint32_t root) {
+    void walk(std::uint32_t root) {
         enter(root);
         while (!open_.empty()) {
             Open& at = open_.back();
@@ -144,12 +170,6 @@ class CsgEvaluation {
             open_.pop_back();
         }
     }
-
-  private:
-    struct Open {
-        std::uint32_t node, next;  // child
-        std::size_t begin, middle;
-    };
 
     void enter(std::uint32_t index) {
         const CsgNode& node = geometry_.csg_nodes[index];

@@ -22,6 +22,9 @@ struct Departure {
     std::uint32_t left = none;    // the primitive on whose surface it begins, and on whose outside it is
     std::uint32_t leaf = none;    // the face that it begins on
     std::int32_t face = 0;
+    bool for_good = false;  // what it has left it cannot meet again, and so is not asked about
+
+    std::uint32_t gone() const { return for_good ? left : none; }
 };
 
 // The crossing by which a ray leaves a closed primitive that it is inside of: there always is one, with t >= 0.

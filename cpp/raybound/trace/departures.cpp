@@ -8,18 +8,16 @@ Departures departures(const Geometry& geometry, const Nearest<T>& nearest) {
     const std::uint32_t none = Departure::none, here = nearest.primitive, within = nearest.within;
     const std::uint32_t leaf = nearest.crossing.leaf;
     const std::int32_t face = nearest.crossing.face;
+    const bool for_good = is_left_for_good(geometry, geometry.primitives[here], true);
     if (!is_closed(geometry, geometry.primitives[here])) {
-        const Departure both{within, here, leaf, face};
+        const Departure both{within, here, leaf, face, for_good};
         return {both, both};
     }
-    if (nearest.crossing.entering)
-        return {{within, here, leaf, face}, {here, nearest.touching ? within : none, leaf, face}};
-    return {{here, none, leaf, face}, {within == here ? none : within, here, leaf, face}};
-}
-
-std::uint32_t gone_for_good(const Geometry& geometry, const Departure& from) {
-    if (from.left == Departure::none) return Departure::none;
-    return is_left_for_good(geometry, geometry.primitives[from.left], true) ? from.left : Departure::none;
+    if (!nearest.crossing.entering)
+        return {{here, none, leaf, face, false}, {within == here ? none : within, here, leaf, face, for_good}};
+    if (!nearest.touching) return {{within, here, leaf, face, for_good}, {here, none, leaf, face, false}};
+    const bool other_for_good = is_left_for_good(geometry, geometry.primitives[within], true);
+    return {{within, here, leaf, face, for_good}, {here, within, leaf, face, other_for_good}};
 }
 
 void visit_containing(const Snapshot& scene, const Vec3f& point, const std::function<void(std::uint32_t)>& visit) {

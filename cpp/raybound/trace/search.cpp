@@ -34,7 +34,7 @@ class Search {
           ray_(ray),
           from_(from),
           brute_force_(acceleration == Acceleration::brute_force),
-          gone_(gone_for_good(geometry_, from)),
+          gone_(from.gone()),
           observer_(observer) {}
 
     Nearest<T> run(const Bvh::Frontier* frontier) {
@@ -165,7 +165,7 @@ class BlockerSearch {
           ray_(ray),
           from_(from),
           brute_force_(acceleration == Acceleration::brute_force),
-          gone_(gone_for_good(geometry_, from)),
+          gone_(from.gone()),
           observer_(observer) {}
 
     bool is_within_blocked() const {

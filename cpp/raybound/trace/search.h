@@ -27,9 +27,6 @@ struct Departures {
 template <class T>
 Departures departures(const Geometry& geometry, const Nearest<T>& nearest);
 
-// The primitive that a ray has left for good, and so is not asked about, or none.
-std::uint32_t gone_for_good(const Geometry& geometry, const Departure& from);
-
 // What a ray knows that begins anywhere in space: the closed solid around its origin, if it is in one, and only one.
 Departure departure_at(const Snapshot& scene, const Vec3f& origin);
 
