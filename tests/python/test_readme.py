@@ -1,4 +1,4 @@
-"""The first script in the README makes the picture that is shown beside it; the other one says what it does."""
+"""The first script in the README makes the picture that is shown beside it; the others say what they do."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SCRIPTS = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
 
 
 def test_the_script_makes_its_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert len(SCRIPTS) == 2
+    assert len(SCRIPTS) == 3
     assert len(SCRIPTS[0].splitlines()) == 10
     monkeypatch.chdir(tmp_path)
     exec(compile(SCRIPTS[0], "README.md", "exec"), {})
@@ -27,9 +27,19 @@ def test_the_script_makes_its_picture(tmp_path: Path, monkeypatch: pytest.Monkey
     assert np.abs(made - shown).mean() < 0.002
 
 
-def test_the_function_is_bounded_over_its_cell() -> None:
+def test_the_lens_brings_light_together() -> None:
     names = {"rb": rb}
     exec(compile(SCRIPTS[1], "README.md", "exec"), names)
+    last: np.ndarray = names["last"]  # type: ignore[assignment]
+    assert last["ray"].tolist() == [0, 1]
+    axis = last["origin"][:, 0] - last["origin"][:, 2] * last["point"][:, 0] / last["point"][:, 2]
+    assert np.ptp(axis) < 0.2  # spherical aberration
+    assert (np.abs(axis - 2) < 0.7).all()  # about R / (n - 1) = 4 behind the curved side
+
+
+def test_the_function_is_bounded_over_its_cell() -> None:
+    names = {"rb": rb}
+    exec(compile(SCRIPTS[2], "README.md", "exec"), names)
     cosine: rb.TaylorModel = names["cosine"]
     x, y = np.meshgrid(np.linspace(0.28, 0.32, 9), np.linspace(0.18, 0.22, 9))
     values = 0.6 / np.sqrt((x - 0.1) ** 2 + y**2 + 0.36)

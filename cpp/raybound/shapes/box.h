@@ -6,7 +6,7 @@
 namespace raybound {
 
 template <class T>
-inline Span<T> box_span(const LocalRay<T>& ray, const Vec3<T>& lower, const Vec3<T>& upper) {
+[[gnu::always_inline]] inline Span<T> box_span(const LocalRay<T>& ray, const Vec3<T>& lower, const Vec3<T>& upper) {
     const Span<T> x = slab_span(ray, 0, lower.x, upper.x, 0);
     const Span<T> y = slab_span(ray, 1, lower.y, upper.y, 2);
     const Span<T> z = slab_span(ray, 2, lower.z, upper.z, 4);

@@ -186,7 +186,7 @@ class CsgEvaluation {
     }
 
     // What begins at `begin`, merged.
-    void unite(std::size_t begin) {
+    [[gnu::noinline]] void unite(std::size_t begin) {
         const auto first = stack_.begin() + std::ptrdiff_t(begin);
         std::sort(first, stack_.end(), [](const auto& a, const auto& b) { return begins_before(a, b); });
         std::size_t last = begin;
@@ -200,8 +200,9 @@ class CsgEvaluation {
         if (stack_.size() > begin) stack_.resize(last + 1);
     }
 
-    // Pairwise overlaps of two sorted lists, one from `begin`, one from `middle`.
-    void intersect(std::size_t begin, std::size_t middle) {
+    // Pairwise overlaps of two sorted lists, one from `begin`, one from `middle`. (Not inlined, as the others, so that
+    // the recursion stays small.)
+    [[gnu::noinline]] void intersect(std::size_t begin, std::size_t middle) {
         const std::size_t end = stack_.size();
         std::size_t a = begin, b = middle;
         while (a < middle && b < end) {
@@ -215,7 +216,7 @@ class CsgEvaluation {
 
     // What is there from `begin` without what is there from `middle`. What is left of an interval, thinner than its
     // errors, is nothing: no skin stays where faces coincide.
-    void subtract(std::size_t begin, std::size_t middle) {
+    [[gnu::noinline]] void subtract(std::size_t begin, std::size_t middle) {
         const std::size_t end = stack_.size();
         for (std::size_t a = begin; a < middle; ++a) {
             Interval<T> rest = stack_[a];

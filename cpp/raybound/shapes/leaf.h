@@ -108,7 +108,7 @@ inline Span<T> leaf_span_ahead(const Geometry& geometry, const Leaf& leaf, const
 
 // Where a ray that is inside a solid leaf leaves it, whatever its rounded origin says.
 template <class T>
-inline Exit<T> leaf_exit(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
+[[gnu::noinline]] Exit<T> leaf_exit(const Geometry& geometry, const Leaf& leaf, const Ray<T>& ray) {
     const LocalRay<T> local = leaf_ray(geometry, leaf, ray);
     if (leaf.frame < 0) {
         if (leaf.kind == LeafKind::sphere) return sphere_exit(local, T(leaf.radius()));

@@ -111,8 +111,7 @@ class Search {
 
     // Takes the primitive's crossing if it comes first. A crossing cannot lie before the entry into the primitive's
     // box: the clamp makes that true of rounded numbers too, so that a traversal ordered by entries misses nothing.
-    // (Not inlined, so that traversals stay small.)
-    [[gnu::noinline]] void consider(std::uint32_t index, T entry, bool filtered) {
+    void consider(std::uint32_t index, T entry, bool filtered) {
         observer_.primitive();
         const Crossing<Wide<T>> crossing = crossing_of(index, filtered);
         if (!crossing.hit) return;
