@@ -62,6 +62,26 @@ class NextCrossing {
     double near_;
 };
 
+// Does a face of a mesh lie behind the plane of another one? Then a ray that has left by that one does not come in by
+// it.
+bool lies_behind(const MeshData& mesh, std::int32_t face, std::int32_t plane) {
+    const Corners<double> c = mesh.corners<double>(face), p = mesh.corners<double>(plane);
+    const Vec3d normal = cross(p.b - p.a, p.c - p.a);
+    const double rounding = 0x1p-20 * norm1(normal) * double(mesh.reach());
+    return dot(normal, c.a - p.a) <= rounding && dot(normal, c.b - p.a) <= rounding &&
+           dot(normal, c.c - p.a) <= rounding;
+}
+
+// At an acute edge of a mesh the step out of one face may lead back before the other: no way in.
+void drop_way_back(const Geometry& geometry, const Primitive& primitive, const Departure& from, double near,
+                   std::vector<Stretch>& stretches) {
+    if (!is_mesh(geometry, primitive) || from.leaf != primitive.root) return;
+    const MeshData& mesh = *geometry.meshes[geometry.leaves[primitive.root].polygon].data;
+    std::erase_if(stretches, [&](const Stretch& s) {
+        return std::abs(s.in.t) <= 2 * near && lies_behind(mesh, s.in.face, from.face);
+    });
+}
+
 Crossing<double> no_crossing() { return {infinity<double>, 0, 0, 0, false, false}; }
 
 }  // namespace
@@ -84,7 +104,8 @@ Crossing<Wide<T>> crossing_from_outside(const Geometry& geometry, const Primitiv
     const double rounding = rounding_of(primitive, ray.wide), near = 4 * rounding / length(ray.wide.direction);
     const Crossing<double> natural = first_crossing(geometry, primitive, ray, asking, observer);
     if (!natural.hit || (natural.entering && !(left && natural.t <= 2 * near))) return natural;
-    const std::vector<Stretch> stretches = stretches_of(geometry, primitive, ray.wide);
+    std::vector<Stretch> stretches = stretches_of(geometry, primitive, ray.wide);
+    if (left) drop_way_back(geometry, primitive, from, near, stretches);
     const bool outside = left || std::abs(depth_of(geometry, primitive, ray.wide.origin)) <= rounding;
     const NextCrossing next(stretches, from, near);
     const Stretch* found = next.entry(outside, left);
