@@ -142,6 +142,7 @@ Departures ExactTracer::departures_of(const Level& level, const Face& face, int 
     nearest.crossing.leaf = face.leaf;
     nearest.crossing.face = face.face;
     nearest.crossing.entering = face.entering;
+    nearest.crossing.t = level.hits[std::size_t(ray / pack_width)].crossing_t[ray % pack_width];
     nearest.primitive = face.primitive;
     nearest.within = level.found.within[ray];
     nearest.touching = level.found.touching >> ray & 1;

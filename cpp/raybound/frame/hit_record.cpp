@@ -172,6 +172,7 @@ RayStart RayOrigins::leave(const HitRecord& hit, const Vec3d& direction) const {
     nearest.crossing.leaf = face.leaf;
     nearest.crossing.face = face.face;
     nearest.crossing.entering = hit.entering;
+    nearest.crossing.t = hit.t;
     nearest.within = hit.within_id < 0 ? Departure::none : index_of(scene_, hit.within_id);
     nearest.touching = hit.touching && nearest.within != Departure::none;
     const bool closed = is_closed(geometry, geometry.primitives[nearest.primitive]);

@@ -103,9 +103,11 @@ Crossing<Wide<T>> crossing_from_outside(const Geometry& geometry, const Primitiv
                                         const Departure& from, bool left, const Asking<T>& asking, Observer observer) {
     const double rounding = rounding_of(primitive, ray.wide), near = 4 * rounding / length(ray.wide.direction);
     const Crossing<double> natural = first_crossing(geometry, primitive, ray, asking, observer);
-    if (!natural.hit || (natural.entering && !(left && natural.t <= 2 * near))) return natural;
+    const double passed = (from.at_once ? 4 : 2) * near;
+    if (!natural.hit || (natural.entering && !(left && natural.t <= passed))) return natural;
     std::vector<Stretch> stretches = stretches_of(geometry, primitive, ray.wide);
     if (left) drop_way_back(geometry, primitive, from, near, stretches);
+    if (left && from.at_once) std::erase_if(stretches, [&](const Stretch& s) { return s.in.t <= passed; });
     const bool outside = left || std::abs(depth_of(geometry, primitive, ray.wide.origin)) <= rounding;
     const NextCrossing next(stretches, from, near);
     const Stretch* found = next.entry(outside, left);

@@ -23,6 +23,7 @@ struct Departure {
     std::uint32_t leaf = none;    // the face that it begins on
     std::int32_t face = 0;
     bool for_good = false;  // what it has left it cannot meet again, and so is not asked about
+    bool at_once = false;   // it has left where it came in, by rounding: it does not come in there again
 
     std::uint32_t gone() const { return for_good ? left : none; }
 };

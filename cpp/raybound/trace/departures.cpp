@@ -13,8 +13,10 @@ Departures departures(const Geometry& geometry, const Nearest<T>& nearest) {
         const Departure both{within, here, leaf, face, for_good};
         return {both, both};
     }
-    if (!nearest.crossing.entering)
-        return {{here, none, leaf, face, false}, {within == here ? none : within, here, leaf, face, for_good}};
+    if (!nearest.crossing.entering) {
+        const bool at_once = !(nearest.crossing.t > 0);
+        return {{here, none, leaf, face, false}, {within == here ? none : within, here, leaf, face, for_good, at_once}};
+    }
     if (!nearest.touching) return {{within, here, leaf, face, for_good}, {here, none, leaf, face, false}};
     const bool other_for_good = is_left_for_good(geometry, geometry.primitives[within], true);
     return {{within, here, leaf, face, for_good}, {here, within, leaf, face, other_for_good}};
