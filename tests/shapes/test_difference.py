@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from tests.support.support_csg import expression, is_thick
+from tests.support.support_csg import thick_expressions
 from tests.support.support_shapes import aimed_rays, unit
 
 import raybound as rb
@@ -61,10 +61,7 @@ def test_taking_away_what_is_taken_away_gives_it_back() -> None:
 def test_normals_point_out_of_what_is_left() -> None:
     rng = np.random.default_rng(3)
     seen = 0
-    for _ in range(60):
-        shape = expression(rng, 2, grid=False)
-        if not is_thick(shape):
-            continue
+    for shape in thick_expressions(rng, 60):
         extent = float(np.ptp(shape.bounds, axis=0).max())
         hits = rb.intersect(shape, *aimed_rays(rng, shape, 60, 3, 1.0))
         hits = hits[hits["hit"]]
@@ -109,10 +106,7 @@ def test_differences_that_enclose_nothing(away: rb.Shape) -> None:
 def test_rays_alternate_through_differences() -> None:
     rng = np.random.default_rng(5)
     crossings = 0
-    for _ in range(40):
-        shape = expression(rng, 2, grid=False)
-        if not is_thick(shape):
-            continue
+    for shape in thick_expressions(rng, 40):
         scene = rb.Scene()
         scene.add(shape, rb.Material())
         middle, extent = np.mean(shape.bounds, axis=0), float(np.ptp(shape.bounds, axis=0).max())

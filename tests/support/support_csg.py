@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -49,6 +50,14 @@ def expression(rng: Rng, depth: int, *, grid: bool) -> rb.Shape:
 def is_thick(shape: rb.Shape) -> bool:
     """Has it an inside, as far as its bounds tell?"""
     return bool((shape.bounds[1] > shape.bounds[0]).all())
+
+
+def thick_expressions(rng: Rng, count: int) -> Iterator[rb.Shape]:
+    """Of so many random expressions of two levels, those that have an inside."""
+    for _ in range(count):
+        shape = expression(rng, 2, grid=False)
+        if is_thick(shape):
+            yield shape
 
 
 def close(found: Found | None, hit: np.void) -> bool:
